@@ -47,7 +47,7 @@ struct Dataset {
   std::string tests_from;        // file and entry that name the test views, where it has a split
   int left_out = 0;              // views that are neither for training nor for testing: validation
   std::vector<SfmPoint> points;  // empty where the layout brings none
-  std::optional<Extent> bounds;  // of what is to be seen, world frame, where the layout states them
+  std::optional<Extent> bounds;  // region to be seen, world frame, where the layout states it
 };
 
 // Numbers of the views of `split`, rising.

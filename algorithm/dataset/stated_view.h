@@ -37,7 +37,7 @@ struct StatedView {
 };
 
 struct StatedDataset {
-  std::vector<std::string> files;  // of the data set, but its images
+  std::vector<std::string> files;  // files of the data set except its images
   std::vector<StatedView> views;
   SplitBy split_by = SplitBy::kEveryEighth;
   std::string tests_from;  // file and entry that name the test views, where there is a split

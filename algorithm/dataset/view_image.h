@@ -24,7 +24,7 @@ FoundImage find_image(const std::vector<std::string>& folders, const std::string
 // `name` without "./" before it and without the extension of an image behind it.
 std::string view_name(const std::string& name);
 
-// Whether one factor brings both stated sides to within a pixel of the others.
+// True if one factor brings both stated sides to within a pixel of the others.
 bool of_one_shape(int width, int height, int stated_width, int stated_height);
 
 // Scales the intrinsics to the image, whose size may be the stated one times a common factor, each

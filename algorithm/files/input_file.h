@@ -51,7 +51,7 @@ class LineReader {
 
  private:
   const InputFile file_;
-  std::uint64_t offset_bytes_ = 0;  // of the first byte after block_
+  std::uint64_t offset_bytes_ = 0;  // first byte after block_
   std::string block_;
   std::size_t position_ = 0;  // in block_
   std::uint64_t line_number_ = 0;

@@ -37,7 +37,7 @@ fs::path nearest_folder(const fs::path& path) {
 
 // A name beside `path` that no other writer has, neither here nor in another process.
 std::string temporary_name(const fs::path& path, unsigned number) {
-  constexpr std::size_t kMostNameBytes = 200;  // of the 255 that a name may have
+  constexpr std::size_t kMostNameBytes = 200;  // a name may have 255
   const std::string name = path.filename().string().substr(0, kMostNameBytes);
   return (path.parent_path() / fmt::format("{}.{}-{}.part", name, ::getpid(), number)).string();
 }

@@ -3,8 +3,8 @@
 
 namespace sgs {
 
-// path: of a file; must stay where it is in memory until it is forgotten. From any thread. Of more
-// than a few hundred at once those beyond are not remembered.
+// path: of a file; must stay where it is in memory until it is forgotten. From any thread. At most
+// a few hundred at once are remembered.
 void remember_part(const char* path);
 void forget_part(const char* path);
 

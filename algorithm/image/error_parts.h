@@ -9,7 +9,7 @@ namespace sgs {
 
 // The part of one step in the error of all.
 struct ErrorPart {
-  double share = 0;  // of the squared error; below 0 where the step takes back what others add
+  double share = 0;  // in the squared error; below 0 where the step takes back what others add
   double alone = 0;  // its own square over the squared error; never below 0
 };
 

@@ -52,8 +52,8 @@ void check_channels(const std::string& path, const Imf::ChannelList& channels) {
   }
 }
 
-// OpenEXR makes room for an attribute of whatever size it states. What else is wrong is for OpenEXR
-// to say.
+// OpenEXR makes room for an attribute of whatever size it states. OpenEXR reports
+// all other errors.
 void check_attribute_sizes(const InputFile& file) {
   constexpr std::uint64_t kMagicAndVersionBytes = 8;
   constexpr std::uint64_t kMostNameBytes = 256, kSizeBytes = 4;  // a name, a type, a size

@@ -36,7 +36,7 @@ Image read_pfm(const std::string& path);
 // [0, 1] (NaN: 0), times 255, rounded; no gamma, the file says sRGB.
 std::string encode_png(const Image& image);
 
-// Whether both give the same file.
+// True if both give the same file.
 bool same_png(const Image& a, const Image& b);
 
 // Reads a PNG of any kind as 8 bits a channel to values in [0, 1] as stored, whatever the file

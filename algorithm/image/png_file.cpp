@@ -58,8 +58,8 @@ void check_size(const std::string& path, const PngImage& png, std::uint64_t file
 }
 
 // The file less what says how its values are to be seen (gamma, primaries, profiles): libpng's
-// simplified reader would convert them to sRGB, and pictures here are their values as stored. What
-// is cut off or is no PNG stays as it is, for libpng to refuse.
+// simplified reader would convert them to sRGB, and pictures here are their values as stored. A
+// file that is cut off or is no PNG stays as it is, for libpng to refuse.
 std::string without_colour_space(const std::string& packed) {
   constexpr std::size_t kSignatureBytes = 8, kFrameBytes = 12;  // length, name, checksum of a chunk
   constexpr std::array<std::string_view, 7> kColourSpace = {"gAMA", "cHRM", "sRGB", "iCCP",

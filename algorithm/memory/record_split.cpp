@@ -18,7 +18,7 @@ using Payload = std::array<std::byte, kWordBytes + kMaxSecondHalfBytes>;
 
 // Places in a raw payload with a short quaternion, in words.
 constexpr std::size_t kScaleWord = 0, kQuaternionWord = 3, kOpacityWord = 6, kShWord = 7;
-constexpr std::uint32_t kRawShByte = 28;  // of a raw second half
+constexpr std::uint32_t kRawShByte = 28;  // place in a raw second half
 
 // Bits that are nought whatever the Gaussian.
 struct SpareBit {

@@ -41,7 +41,7 @@
 
 namespace sgs {
 
-// What of a Gaussian's record decides how much the fine filter computes.
+// The properties of a Gaussian's record that decide how much the fine filter computes.
 struct FineRecord {
   int sh_degree = 0;
   std::uint32_t quaternion_words = 4;  // 3: the largest component follows from the others
@@ -52,8 +52,8 @@ struct FineRecord {
 };
 
 struct RecordSplit {
-  CoarseBoundBy bound_by = CoarseBoundBy::kLargestScale;  // what the first half is tested by
-  std::uint32_t carried_words = 1;                        // of the payload, in the first half
+  CoarseBoundBy bound_by = CoarseBoundBy::kLargestScale;  // bound that tests the first half
+  std::uint32_t carried_words = 1;                        // words of the payload in the first half
   bool short_quaternion = false;                          // three words of four are stored
   std::uint32_t second_bytes = 0;
 

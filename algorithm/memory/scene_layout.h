@@ -45,14 +45,14 @@ inline StorageOrder order_of(const TableLayout& table) {
 struct SceneLayout {
   Regions regions;               // the scene's; machines add what they work with behind them
   SecondHalfFormat second_half;  // as encoded, before it is split
-  RecordSplit split;             // what of it lies in which of these
+  RecordSplit split;             // which words of it lie in which half
   RecordArray first_halves, second_halves;  // [slots]
   RegionSpan codebooks;
   TableLayout table;
-  std::uint64_t stored_bytes = 0;  // of the scene's image, from address 0 on
+  std::uint64_t stored_bytes = 0;  // the scene's image, from address 0 on
 
   std::uint32_t gaussian_count() const { return static_cast<std::uint32_t>(first_halves.count); }
-  std::uint64_t record_bytes() const {  // of a Gaussian, both halves
+  std::uint64_t record_bytes() const {  // both halves of a Gaussian
     return std::uint64_t{first_halves.record_bytes} + second_halves.record_bytes;
   }
   int sh_degree() const { return second_half.sh_degree; }
@@ -74,7 +74,7 @@ SceneLayout lay_out_chunks(const SecondHalfFormat& format, std::uint32_t gaussia
 SceneLayout lay_out_file(const SecondHalfFormat& format, std::uint32_t gaussians);
 
 struct MemoryImage {
-  SceneLayout layout;            // of the scene alone
+  SceneLayout layout;            // the scene's alone
   std::vector<std::byte> bytes;  // [layout.stored_bytes] from address 0 on
 
   const std::byte* at(std::uint64_t address) const { return bytes.data() + address; }

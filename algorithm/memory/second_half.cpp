@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kOpacityLevels = 255;
 constexpr float kLargestHalf = 65504;
-constexpr std::uint32_t kIndexBytes = 4;  // of kVq
+constexpr std::uint32_t kIndexBytes = 4;  // an index of kVq
 
 std::uint16_t half_bits(float value) {
   return Imath::half(std::clamp(value, -kLargestHalf, kLargestHalf)).bits();

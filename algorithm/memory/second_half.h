@@ -28,7 +28,7 @@ struct EntryRange {
 struct SecondHalfFormat {
   SecondHalfEncoding encoding = SecondHalfEncoding::kRaw;
   int sh_degree = 0;
-  std::array<std::uint32_t, kCodebookCount> entries{};  // of each codebook; 0: there is none
+  std::array<std::uint32_t, kCodebookCount> entries{};  // [codebook]; 0: there is none
 
   bool quantised() const {
     return encoding == SecondHalfEncoding::kVq || encoding == SecondHalfEncoding::kVqPacked;

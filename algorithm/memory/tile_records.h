@@ -40,7 +40,7 @@ std::uint32_t depth_key(NumberFormat format, float depth);
 struct TileEntry {
   std::uint32_t key = 0;
   std::uint32_t record = 0;   // number of the projected Gaussian
-  std::uint32_t bitmap = 0;   // of parts of the tile
+  std::uint32_t bitmap = 0;   // one bit for each part of the tile
   std::uint32_t opacity = 0;  // listed_opacity()
 };
 
@@ -49,7 +49,7 @@ struct TileEntry {
 struct EntryFormat {
   NumberFormat keys = NumberFormat::kHalf;
   int subtiles_across = 2;
-  NumberFormat features = NumberFormat::kHalf;  // of records
+  NumberFormat features = NumberFormat::kHalf;  // format of records
 
   std::uint32_t key_bytes() const { return keys == NumberFormat::kHalf ? 2 : 4; }
   bool wide() const { return subtiles_across > 2; }

@@ -80,7 +80,7 @@ class ChunkWalk {
     if (chunk == nullptr) return std::nullopt;
     return chunks_.take_nearest();
   }
-  // Whether take_chunk() would give one without what was put aside.
+  // True if take_chunk() would give one without the entry put aside.
   bool has_chunk() const { return final_chunk() != nullptr; }
   // The first walk gives no chunk any more.
   bool exhausted() const {
@@ -117,11 +117,11 @@ class ChunkWalk {
       return e.at == entry.at && e.walk == entry.walk;
     }));
   }
-  // Whether the walk of an entry that was taken has ended.
+  // True if the walk of a taken entry has ended.
   bool has_ended(const WalkEntry& entry) const {
     return static_cast<std::int16_t>(entry.walk - first_) < 0;
   }
-  // Whether an entry is of the walk that began first.
+  // True if an entry belongs to the walk that began first.
   bool of_first(const WalkEntry& entry) const { return entry.walk == first_; }
 
   // entry: as take_node() gave it. Its walk may have ended meanwhile.
@@ -163,7 +163,7 @@ class ChunkWalk {
     while (!queue.empty() && of_first(queue.nearest())) queue.take_nearest();
   }
 
-  // Whether an entry comes before all nodes that are not open.
+  // True if an entry comes before all nodes that are not open.
   bool before_unopened(const WalkEntry& entry) const {
     return (nodes_.empty() || walks_before(entry, nodes_.nearest())) &&
            std::all_of(opening_.begin(), opening_.end(),

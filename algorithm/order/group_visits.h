@@ -28,7 +28,7 @@ struct GroupVisits {
   std::uint64_t steps = 0;            // blocks crossed or samples taken
   std::uint64_t edges_offered = 0;    // consecutive pairs over all rays
   std::uint64_t table_bytes = 0;      // ordering table at its fullest
-  std::uint64_t passes = 0;           // that were ordered
+  std::uint64_t passes = 0;           // passes that were ordered
   std::uint64_t overflows = 0;        // passes begun again because the table was full
 };
 

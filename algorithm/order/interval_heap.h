@@ -29,7 +29,7 @@ namespace sgs {
 
 // Accesses to the memory of one level.
 struct HeapLevelWork {
-  std::uint64_t nodes_read = 0;        // that hold a key: of two keys and two counts
+  std::uint64_t nodes_read = 0;        // nodes that hold a key; a node has two keys and two counts
   std::uint64_t nodes_read_ahead = 0;  // beside these, below candidates that do not fill a hole
   std::uint64_t nodes_written = 0;     // at most one an operation
 };
@@ -37,7 +37,7 @@ struct HeapLevelWork {
 // Operations, and the accesses of all levels. The root is in registers, where nothing is counted.
 struct HeapWork {
   std::uint64_t inserts = 0, delete_mins = 0, delete_maxs = 0;
-  std::uint64_t comparisons = 0;  // of two keys, at any level
+  std::uint64_t comparisons = 0;  // comparisons of two keys, at any level
   std::vector<HeapLevelWork> levels;
 
   std::uint64_t operations() const { return inserts + delete_mins + delete_maxs; }

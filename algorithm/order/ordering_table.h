@@ -140,10 +140,10 @@ constexpr std::uint32_t kOrderingBytesPerEdge = 4;
 // Accesses to the table so far, each to a voxel's record or to an edge.
 struct OrderingAccesses {
   std::uint64_t met = 0;                            // voxels
-  std::uint64_t reads = 0, writes = 0;              // of the table
-  std::uint64_t heads_read = 0;                     // of these reads: where edges are looked for
-  std::uint64_t names_read = 0, names_written = 0;  // of the renaming
-  std::uint64_t ready_read = 0, ready_written = 0;  // of the words of ready voxels
+  std::uint64_t reads = 0, writes = 0;              // accesses to the table
+  std::uint64_t heads_read = 0;                     // reads among these that look for edges
+  std::uint64_t names_read = 0, names_written = 0;  // accesses to the renaming
+  std::uint64_t ready_read = 0, ready_written = 0;  // accesses to the words of ready voxels
 };
 
 class OrderingTable {
@@ -190,11 +190,12 @@ class OrderingTable {
            std::uint64_t{edge_count()} * kOrderingBytesPerEdge;
   }
   const OrderingAccesses& accesses() const { return accesses_; }
-  // What was written of the voxel added last: the table's words of 8 B, a voxel's record or two
-  // edges, each kind by its number; and how many words of ready voxels.
+  // The words written for the voxel added last. Words of the table have 8 B and hold a voxel's
+  // record or two edges, each kind by its number. The count is of words of ready voxels.
   const std::vector<std::uint32_t>& written() const { return written_; }
   std::uint64_t ready_written() const { return ready_written_; }
-  // Of a voxel by its number, in the order of its list: visit(word of the edge, successor).
+  // Visits a voxel's edges, by its number, in the order of its list: visit(word of the edge,
+  // successor).
   template <class Visit>
   void for_each_edge(std::uint32_t number, const Visit& visit) const {
     for (std::uint32_t at = voxels_[number].first_edge; at != kNone; at = edges_[at].next) {
@@ -212,7 +213,7 @@ class OrderingTable {
     std::uint32_t successor, next;
   };
 
-  std::uint32_t rename(std::uint32_t voxel, bool first);  // of its ray
+  std::uint32_t rename(std::uint32_t voxel, bool first);  // first: of its ray
   void add_edge(std::uint32_t from, std::uint32_t to, bool is_new);
   bool fits() const { return bytes() <= capacity_bytes_; }
 

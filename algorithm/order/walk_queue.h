@@ -16,7 +16,7 @@ struct WalkEntry {
   float nearest = 0;        // no Gaussian below is nearer than this
   std::uint32_t at = 0;     // node, or first storage slot of a chunk
   std::uint16_t count = 0;  // Gaussians of a chunk; 0: a node
-  std::uint16_t walk = 0;   // that it belongs to, numbered modulo 65,536
+  std::uint16_t walk = 0;   // the walk it belongs to, numbered modulo 65,536
   GroupReach reach{};       // nothing below changes any other sub-tile
 };
 

@@ -18,8 +18,8 @@ class BlendWatch {
  public:
   explicit BlendWatch(std::size_t subtiles) : deepest_(subtiles) {}
 
-  // To be called with each blend into the group. Whether the splat at `depth` was blended into any
-  // of the sub-tile's pixels.
+  // To be called with each blend into the group. Returns true if the splat at `depth` was blended
+  // into any of the sub-tile's pixels.
   bool see(const SubtileBlend& blend, float depth) {
     // Masks and numbers of 32 bits, so that a loop over lanes is vector code.
     Deepest& deepest = deepest_[blend.at];
@@ -40,7 +40,7 @@ class BlendWatch {
 
  private:
   struct Deepest {
-    float depth[kSubtilePixels] = {};  // of what is blended there
+    float depth[kSubtilePixels] = {};  // greatest depth blended there
   };
   std::vector<Deepest> deepest_;
   std::uint64_t misordered_ = 0;
@@ -65,7 +65,7 @@ constexpr int kWarpsOfTile = 8, kWarpThreads = 32;
 
 class WarpWatch {
  public:
-  // pixels: of the tile, cut to the frame. What lies outside counts as finished.
+  // pixels: of the tile, cut to the frame. Pixels outside count as finished.
   explicit WarpWatch(const PixelRect& pixels) {
     for (int y = 0; y < pixels.height(); ++y) unfinished_[row_pair(y)] += pixels.width();
     for (int y = 0; y < kTilePx; ++y) {
@@ -80,7 +80,7 @@ class WarpWatch {
   void see(const SubtileBlend& blend) {
     const int row = blend.y % kSubtilesPerTile, column = blend.x % kSubtilesPerTile;
     auto& active = active_[static_cast<std::size_t>(row * kSubtilesPerTile + column)];
-    constexpr std::size_t kLanes = kSubtilePixels / 2;  // of a warp in a sub-tile
+    constexpr std::size_t kLanes = kSubtilePixels / 2;  // lanes of a warp in a sub-tile
     for (std::size_t first = 0; first < kSubtilePixels; first += kLanes) {
       std::int32_t blends = 0, left = 0;
       for (std::size_t l = first; l < first + kLanes; ++l) {
@@ -105,8 +105,8 @@ class WarpWatch {
     }
   }
 
-  std::uint64_t entries() const { return entries_; }  // that a warp looked at
-  std::uint64_t blended() const { return blended_; }  // of these into one pixel at least
+  std::uint64_t entries() const { return entries_; }  // (entry, warp) pairs that were looked at
+  std::uint64_t blended() const { return blended_; }  // pairs among these that blend into a pixel
 
  private:
   static std::size_t row_pair(int y) { return static_cast<std::size_t>(y) / 2; }

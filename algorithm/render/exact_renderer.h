@@ -24,12 +24,12 @@ enum class OnOverflow {
 };
 
 struct ExactOrderConfig {
-  PixelSize group = square_of(64);     // of pixels rendered together, multiples of 4
+  PixelSize group = square_of(64);     // pixels rendered together, multiples of 4
   bool coarse_filter = true;           // off: keys of whole chunks wait
   std::uint32_t merge_entries = 4096;  // keys that wait at most, between two visits
   OnOverflow on_overflow = OnOverflow::kSpill;
-  WalkRoom walk_room{256, 384};                        // of the front-to-back walk
-  BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels
+  WalkRoom walk_room{256, 384};                        // room for the front-to-back walk
+  BlendPrecision precision = BlendPrecision::kSingle;  // precision of blending and of the pixels
   SubtileTest subtile_test = SubtileTest::kEllipse;
   glm::vec3 background{0.0F};
 };

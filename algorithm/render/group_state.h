@@ -23,8 +23,8 @@ namespace sgs {
 enum class SubtileTest { kBox, kEllipse };
 
 struct BlendWork {
-  std::uint32_t rows = 0;     // of sub-tiles of the footprint
-  std::uint32_t spans = 0;    // of these whose span was computed: all or none
+  std::uint32_t rows = 0;     // rows of sub-tiles in the footprint
+  std::uint32_t spans = 0;    // rows among these whose span was computed: all or none
   std::uint32_t blended = 0;  // sub-tiles blended
 };
 
@@ -42,12 +42,12 @@ struct SubtileReach {
   int x, y;           // the sub-tile, in the whole frame
   bool blends;        // it was unfinished; a finished one does not change
   bool finishes;      // with this splat
-  std::uint32_t row;  // of the splat's rows, the first is 0
+  std::uint32_t row;  // row of the splat, from 0 on
 };
 
 // The part of a group that a splat may reach, before its rows have spans.
 struct SplatBox {
-  SubtileRect subtiles;  // of its footprint, from the group's corner on
+  SubtileRect subtiles;  // the footprint's, from the group's corner on
   bool spanned;          // its rows get spans
 };
 

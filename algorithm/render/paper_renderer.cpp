@@ -29,7 +29,7 @@ struct Part {
   PixelRect pixels;
   GroupState state;
   BlendWatch watch;
-  std::vector<Splat> run;  // of one visit
+  std::vector<Splat> run;  // splats of one visit
 
   Part(const PixelRect& at, const View<float>& view, const PaperOrderConfig& config)
       : pixels(at),

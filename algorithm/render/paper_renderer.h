@@ -18,7 +18,7 @@
 namespace sgs {
 
 struct PaperOrderConfig {
-  PixelSize group = square_of(64);  // of pixels rendered together, multiples of 4
+  PixelSize group = square_of(64);  // pixels rendered together, multiples of 4
   bool coarse_filter = true;        // off: every Gaussian of a voxel goes to the fine filter
   RayPattern rays;
   // Ordering table of one group: where it is full the group is ordered in passes.
@@ -31,7 +31,7 @@ struct PaperOrderConfig {
   // 1/255 some hundredths of a pixel beyond the ellipse, and a splat that reaches a part only so is
   // dropped by that part's fine filter, where the filter of the whole group lets it through.
   std::uint32_t parts = 1;
-  BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels
+  BlendPrecision precision = BlendPrecision::kSingle;  // precision of blending and of the pixels
   SubtileTest subtile_test = SubtileTest::kEllipse;
   glm::vec3 background{0.0F};
 };

@@ -1,4 +1,4 @@
-// The results of renderers: the picture, and the work that a frame takes, by count.
+// The results of renderers: the picture, and the counts of operations that a frame takes.
 #pragma once
 
 #include <cstdint>
@@ -23,22 +23,22 @@ struct StreamingStats {
   std::uint64_t visits_saturated = 0;  // left out because the group was finished (paper order)
   std::uint64_t blocks_reached = 0;    // by at least one group, finished or not
   std::uint64_t first_halves = 0;      // Gaussians seen by the coarse filter
-  std::uint64_t coarse_passed = 0;     // of these
+  std::uint64_t coarse_passed = 0;     // Gaussians that passed the coarse filter
   std::uint64_t second_halves = 0;     // fetched
-  std::uint64_t fine_tests = 0;        // of these, once for each part of a group that wants them
-  std::uint64_t splats = 0;            // that passed both, likewise
-  std::uint64_t subtile_blends = 0;    // (splat, 4x4 sub-tile) pairs
-  std::uint64_t contributors = 0;      // (splat, pixel) blends
-  std::uint64_t contributing = 0;      // Gaussians blended into at least one pixel of the frame
-  std::uint64_t misordered = 0;        // blends behind a splat that is farther, at the same pixel
-  std::uint64_t missed = 0;            // (group, splat) pairs that touch, in a block never visited
+  std::uint64_t fine_tests = 0;      // tests of these, one for each part of a group that wants them
+  std::uint64_t splats = 0;          // Gaussians that passed both filters, likewise
+  std::uint64_t subtile_blends = 0;  // (splat, 4x4 sub-tile) pairs
+  std::uint64_t contributors = 0;    // (splat, pixel) blends
+  std::uint64_t contributing = 0;    // Gaussians blended into at least one pixel of the frame
+  std::uint64_t misordered = 0;      // blends behind a splat that is farther, at the same pixel
+  std::uint64_t missed = 0;          // (group, splat) pairs that touch, in a block never visited
   // Paper order.
   std::uint64_t ray_steps = 0;
   std::uint64_t edges_offered = 0;
   std::uint64_t table_bytes_max = 0;   // ordering table of the worst group
   std::uint64_t visit_splats_max = 0;  // longest list that one visit sorts
   // Exact order.
-  std::uint64_t nodes_read = 0;        // of the chunk tree
+  std::uint64_t nodes_read = 0;        // nodes of the chunk tree
   std::uint64_t pending_keys_max = 0;  // merged and not yet final, of the worst group
   std::uint64_t forced_early = 0;      // keys released before they were final (blend_early)
 

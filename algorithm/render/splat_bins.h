@@ -14,7 +14,7 @@ namespace sgs {
 // A grid of equal cells over the frame, row by row from the top left.
 struct CellGrid {
   int columns = 0, rows = 0;
-  int cell_columns = 0, cell_rows = 0;  // of a cell: sub-tiles of 4 px
+  int cell_columns = 0, cell_rows = 0;  // size of a cell, in sub-tiles of 4 px
   std::size_t size() const { return static_cast<std::size_t>(columns) * rows; }
 };
 

@@ -14,7 +14,7 @@ namespace sgs {
 
 // The sorting key of one Gaussian of a frame.
 struct DepthKey {
-  std::uint32_t depth_bits;  // of v_z as float: positive floats order like their bit patterns
+  std::uint32_t depth_bits;  // v_z as float: positive floats order like their bit patterns
   std::uint32_t index;       // in the cloud
 };
 

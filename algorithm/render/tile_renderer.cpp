@@ -20,7 +20,7 @@ struct TileSplat {
   std::array<std::byte, kRecordPlaceBytes> record;
   float depth;
   std::uint32_t opacity;  // listed
-  std::uint32_t index;    // of the Gaussian
+  std::uint32_t index;    // the Gaussian's
   TileBoxes boxes;
   std::uint32_t key;
 };

@@ -18,7 +18,7 @@ namespace sgs {
 
 struct TileOrderConfig {
   TileRules rules;
-  NumberFormat features = NumberFormat::kHalf;  // of projected Gaussians
+  NumberFormat features = NumberFormat::kHalf;  // format of projected Gaussians
   NumberFormat keys = NumberFormat::kHalf;      // equal ones stay in the order of the cloud
   BlendPrecision precision = BlendPrecision::kHalf;
   std::uint32_t chunk_entries = 256;  // sorted at once; counts whole chunks of sorted lists
@@ -37,22 +37,22 @@ struct TileOrderConfig {
 struct TileStats {
   std::uint64_t gaussians = 0;
   std::uint64_t culled = 0;         // by FrameSides: they cannot touch the frame
-  std::uint64_t projected = 0;      // that are listed in a tile
+  std::uint64_t projected = 0;      // Gaussians listed in a tile
   std::uint64_t tile_tests = 0;     // (Gaussian, tile) candidates
   std::uint64_t subtile_tests = 0;  // parts of tiles tested
   std::uint64_t pairs = 0;          // (Gaussian, tile) entries of lists
-  std::uint64_t parts = 0;          // of their bits, that are set
+  std::uint64_t parts = 0;          // bits set in these entries
   std::uint64_t list_max = 0;       // longest list
-  std::uint64_t entries_taken = 0;  // of lists, until their tile was finished
-  std::uint64_t chunks = 0;         // of sorted lists
-  std::uint64_t chunks_taken = 0;   // of these begun before their tile was finished
+  std::uint64_t entries_taken = 0;  // list entries read until their tile was finished
+  std::uint64_t chunks = 0;         // chunks of sorted lists
+  std::uint64_t chunks_taken = 0;   // chunks among these begun before their tile was finished
   // Entries of the chunks that were taken; the last one of a list may hold fewer.
   std::uint64_t chunk_entries_taken = 0;
   std::uint64_t tiles_finished = 0;
   std::uint64_t subtile_blends = 0;  // (entry, 4x4 sub-tile): 16 fragments each
   std::uint64_t contributors = 0;    // (splat, pixel) blends
   std::uint64_t warp_entries = 0;    // (entry, 16 x 2 px) with an unfinished pixel (blend_watch.h)
-  std::uint64_t warp_blends = 0;     // of these with a pixel that it is blended into
+  std::uint64_t warp_blends = 0;     // pairs among these that blend into a pixel
   std::uint64_t contributing = 0;    // Gaussians blended into at least one pixel of the frame
   std::uint64_t misordered = 0;      // blends behind a splat that is farther, at the same pixel
 

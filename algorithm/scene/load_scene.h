@@ -18,7 +18,7 @@ struct Scene {
   std::uint64_t dropped_invalid = 0;  // Gaussians left out, see PlyReadOptions
 };
 
-// Whether its name ends as that of one that load_scene() takes.
+// True if the file's name ends as load_scene() takes it.
 bool is_scene_file(const std::string& path);
 
 // Loads a .ply file. Throws InputError as read_ply does, and for any other extension.

@@ -60,7 +60,7 @@ void split_words(std::string_view line, std::vector<std::string_view>& words) {
   }
 }
 
-// Whether all of `word` is a number; `value` is the nearest float, infinite when out of range.
+// True if all of `word` is a number; `value` is the nearest float, infinite when out of range.
 bool parse_float(std::string_view word, float& value) {
   if (!word.empty() && word.front() == '+') {
     word.remove_prefix(1);

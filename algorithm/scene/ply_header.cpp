@@ -180,7 +180,7 @@ class HeaderParser {
   std::size_t position_ = 0;  // in text_, which begins at byte 0 of the file
   bool has_format_ = false;
   std::set<std::string> element_names_;
-  std::set<std::string> property_names_;  // of the last element
+  std::set<std::string> property_names_;  // names in the last element
   PlyHeader header_;
 };
 

@@ -99,7 +99,8 @@ bool is_usable(int slot, float value) {
          !(is_scale && value > static_cast<float>(kMaxLogScale));
 }
 
-// Whether all slots are, without a branch a value: the loop is most of the reader's work.
+// True if all slots are usable. There is no branch a value: the loop takes most of the reader's
+// time.
 bool all_usable(const float* slots, int count) {
   std::int32_t any_bad = 0;
   for (int slot = 0; slot < count; ++slot) {

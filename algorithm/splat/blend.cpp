@@ -72,8 +72,8 @@ class Exp2Lanes {
   alignas(64) float coefficient_[kCoefficients][kSubtilePixels];
 };
 
-// What a splat does to a pixel whose light and colours are kept as T. note(lane, alpha, T before)
-// is told of each lane, with alpha 0 where nothing is blended.
+// Blends a splat into a pixel whose light and colours are kept as T. note(lane, alpha, T before) is
+// told of each lane, with alpha 0 where nothing is blended.
 template <class T>
 class PixelsIn {
  public:

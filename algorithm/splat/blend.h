@@ -100,19 +100,19 @@ struct SubtileState {
 // point (fixed_pixel.h).
 enum class BlendPrecision : std::uint8_t { kSingle, kHalf, kFixed };
 
-// Whether the exponent and alpha are halves, and what is kept of a pixel has 16 bits a number.
+// True if the exponent and alpha are halves, and a pixel's state has 16 bits a number.
 constexpr bool in_16_bits(BlendPrecision precision) { return precision != BlendPrecision::kSingle; }
 
 // Fresh state; pixels that lie outside the frame (width x height px) begin finished.
 SubtileState make_subtile(int subtile_x, int subtile_y, int width_px, int height_px);
 
-// What one splat took of the light of each pixel.
+// The alpha of one splat in each pixel, and the transmittance T in front of it.
 struct LaneShares {
   float alpha[kSubtilePixels];   // 0 where it was not blended
   float before[kSubtilePixels];  // T in front of it; behind it is the state's
 };
 
-// What a splat of this alpha takes of a pixel's light, and what it leaves.
+// The share of a pixel's light that a splat of this alpha takes, and the light that it leaves.
 template <class T>
 struct LightShare {
   T weight, after;
@@ -139,7 +139,7 @@ LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y,
 LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y,
                           const SplatOnFixedPixels& splat);
 
-// Whether every pixel of the block is finished.
+// True if every pixel of the block is finished.
 bool finished(const SubtileState& state);
 
 // From the state of a pixel to the frame: one channel of C + T background.

@@ -20,7 +20,7 @@
 
 namespace sgs {
 
-// What a coarse filter knows of a Gaussian beside its centre.
+// The size of a Gaussian that a coarse filter knows beside its centre.
 enum class CoarseBoundBy : std::uint8_t {
   kLargestScale,  // coarse_bound(): the paper's
   kExtents,       // extent_bound.h
@@ -64,7 +64,7 @@ CoarseBoundOf<T> coarse_bound(const View<T>& view, const glm::vec<3, T>& mean, T
   return out;
 }
 
-// Whether the bound touches a rectangle of pixels.
+// True if the bound touches a rectangle of pixels.
 template <class T>
 bool touches(const CoarseBoundOf<T>& bound, const PixelRect& pixels) {
   const auto outside = [](T at, int low, int high) {

@@ -53,7 +53,7 @@ inline glm::vec<3, Counting> input(DataFlow& flow, const glm::vec3& v) {
 }
 inline CountingIndex input_index(DataFlow& flow, int value) { return {value, &flow, flow.input()}; }
 
-// What goes on at the end of the computation.
+// Marks the values that the computation hands on at its end.
 template <class Value>
 void keep(DataFlow& flow, std::initializer_list<Value> values) {
   for (const Value& value : values) {

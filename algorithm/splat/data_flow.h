@@ -11,7 +11,7 @@
 
 namespace sgs {
 
-// What a computation can consist of, as the counting scalar records it.
+// The operations that a computation can consist of, as the counting scalar records it.
 enum class Operation : std::uint8_t {
   kInput,
   kNegate,
@@ -35,18 +35,17 @@ enum class Operation : std::uint8_t {
   kTruncate,
   kRound,
   kFromIndex,  // a whole number becomes a float
-  kAddIndex,   // of two whole numbers
-  kMoveBits,   // of a whole number, by places that are known: wires
-  kMaskBits    // of a whole number: set or cleared
+  kAddIndex,   // two whole numbers
+  kMoveBits,   // a whole number's, by places that are known: wires
+  kMaskBits    // a whole number's: set or cleared
 };
 
 // How many operations of each class a computation takes. Signs (negation, absolute value)
 // and selections are not counted, nor bits of a whole number that are moved or cleared.
 struct OperationCounts {
   std::uint32_t multiplies = 0;
-  std::uint32_t adds = 0;  // and subtractions
-  std::uint32_t fused =
-      0;  // of the adds: right behind a multiplication, which they can be fused with
+  std::uint32_t adds = 0;       // and subtractions
+  std::uint32_t fused = 0;      // adds right behind a multiplication, which they can be fused with
   std::uint32_t divisions = 0;  // quotients; by a constant power of two they are multiplies
   std::uint32_t divisors = 0;   // different ones among them
   std::uint32_t square_roots = 0;
@@ -56,9 +55,9 @@ struct OperationCounts {
   std::uint32_t roundings = 0;    // to a whole number
   std::uint32_t splits = 0;       // into whole steps and the rest
   std::uint32_t scalings = 0;     // by a power of two that is computed: added to the exponent
-  std::uint32_t conversions = 0;  // of whole numbers to floats
-  std::uint32_t index_adds = 0;   // of whole numbers
-  std::uint32_t look_ups = 0;     // of a row of a table of coefficients
+  std::uint32_t conversions = 0;  // whole numbers to floats
+  std::uint32_t index_adds = 0;   // adds of whole numbers
+  std::uint32_t look_ups = 0;     // each a row of a table of coefficients
 };
 
 class DataFlow {
@@ -73,7 +72,7 @@ class DataFlow {
     Operation operation;
     Operand a, b;
     std::uint32_t uses;            // operations that take it, twice where they take it twice
-    std::uint32_t first_division;  // of a division: the first by this divisor
+    std::uint32_t first_division;  // for a division: the first by this divisor
     bool kept;
   };
 

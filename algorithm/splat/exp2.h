@@ -76,8 +76,8 @@ struct Exp2TableOf {
 
 template <class T>
 struct Exp2Parts {
-  T rest;              // of the last step, at most 1/128 from 0; no number where t is none
-  std::int32_t steps;  // of 1/64
+  T rest;              // rest after the last step, at most 1/128 from 0; no number where t is none
+  std::int32_t steps;  // steps of 1/64
 };
 
 // t >= kLeastExp2Argument. Above 0 the steps, above 1000 also the rest, mean nothing.

@@ -88,7 +88,7 @@ ExtentBoundOf<T> extent_bound(const View<T>& view, const glm::vec<3, T>& mean,
   return out;
 }
 
-// Whether the bound touches a rectangle of pixels.
+// True if the bound touches a rectangle of pixels.
 template <class T>
 bool touches(const ExtentBoundOf<T>& bound, const PixelRect& pixels) {
   const auto within = [&](T at, int low, int high, T reach_squared) {
@@ -139,13 +139,13 @@ std::uint8_t subtile_of(T px, int begin_px) {
   return static_cast<std::uint8_t>((static_cast<int>(value_of(px)) - begin_px) / kSubtilePx);
 }
 
-// Of a bound that touches the group.
+// The reach of a bound that touches the group.
 template <class T>
 GroupReach group_reach(const ExtentBoundOf<T>& bound, const PixelRect& group) {
   using std::ceil, std::floor;
   const auto along = [&](T at, T reach_squared, int begin, int end) {
     const T reach = T(bound.slack_px + root_above(reach_squared));
-    // What is not a number leaves the group's own edge.
+    // A value that is not a number leaves the group's own edge.
     const T first = max_of(T(static_cast<float>(begin)), T(ceil(T(at - reach))));
     const T last = min_of(T(static_cast<float>(end - 1)), T(floor(T(at + reach))));
     return std::array<std::uint8_t, 2>{subtile_of(first, begin), subtile_of(last, begin)};

@@ -27,7 +27,8 @@ inline float of_fixed_units(std::uint32_t value, std::uint32_t units) {
   return static_cast<float>(static_cast<std::int32_t>(value)) * (1.0F / static_cast<float>(units));
 }
 
-// What fits is kept: also of an infinite colour, and 0 of what is not a number.
+// Keeps the part of a colour that fits: an infinite one becomes the largest, one that is not a
+// number becomes 0.
 inline std::uint32_t fixed_colour(float colour) {
   constexpr float kLargest =
       static_cast<float>(kLargestFixedColour) / static_cast<float>(kFixedColour);

@@ -109,10 +109,10 @@ T least_q(T x, T y, T a, T b, T c, const PixelRectOf<IndexOf<T>>& pixels) {
   return least;
 }
 
-// Whether some pixel of the rectangle can have a computed alpha of 1/255 or more. Conservative:
-// what rounding can do is given away at the farthest corner, where S is largest: 19 eps S between Q
-// and the pixel's q as above, 9 eps S between Q and the conic here, 6 eps S in evaluating it here,
-// the rest for S itself.
+// True if some pixel of the rectangle can have a computed alpha of 1/255 or more. Conservative:
+// rounding is allowed for at the farthest corner, where S is largest. It is 19 eps S between Q and
+// the pixel's q as above, and 9 eps S between Q and the conic here. Evaluating the conic here adds
+// 6 eps S; the rest is for S itself.
 template <class T>
 bool reaches(T x, T y, T a, T b, T c, T cutoff, const PixelRectOf<IndexOf<T>>& pixels) {
   using std::abs;

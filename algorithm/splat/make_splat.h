@@ -45,7 +45,7 @@ auto footprint_px(const SubtileRectOf<Short>& footprint, const PixelRect& within
                       {within.x0, within.y0, within.x1, within.y1});
 }
 
-// Whether a splat can change a pixel of the group `pixels`: its footprint overlaps and so does its
+// True if a splat can change a pixel of the group `pixels`: its footprint overlaps and so does its
 // visible ellipse.
 template <class T>
 bool reaches_group(const SplatOf<T>& s, const PixelRect& pixels) {

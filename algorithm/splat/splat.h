@@ -1,4 +1,4 @@
-// What the fine filter hands on and rendering blends: one Gaussian on the screen, with its colour.
+// One Gaussian on the screen, with its colour: the fine filter hands it on and rendering blends it.
 #pragma once
 
 #include <cstdint>

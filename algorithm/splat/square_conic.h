@@ -35,7 +35,7 @@ inline SquareConic<T> square_conic(T conic_a, T conic_b, T conic_c) {
   return {T(a * factor), lean, T(T(conic_c - conic_b * lean) * factor)};
 }
 
-// What square_conic() was made of.
+// The terms that square_conic() was made from.
 template <class T>
 struct ConicTerms {
   T a, b, c;
@@ -62,8 +62,8 @@ inline float axis_unit(float factor) {
   return std::ldexp(1.0F, (exponent + (exponent & 1)) / 2);
 }
 
-// Of both axes: both factors are near 1, however long the ellipse is, and B/A is what it is for a
-// round one that leans.
+// The units of both axes. With them both factors are near 1, however long the ellipse is, and B/A
+// is as for a round one that leans.
 template <class T>
 inline AxisUnits axis_units(const SquareConic<T>& conic) {
   return {axis_unit(value_of(conic.a)), axis_unit(value_of(conic.rest))};

@@ -22,13 +22,13 @@ namespace sgs {
 // then off by at most 12 eps (b by 3 eps |u1| |u2|, over lambda - lambda' >= 3/4 lambda), which at
 // the ends of the box and 40 px beyond is less than 10^-6 of the long side and 10^-4 px. Factors of
 // 1.0002, 0.02 px for places on the screen (as footprint.h) and 2 10^-5 of the long side hold all.
-constexpr float kOrientedRatio = 2.0F;  // of the axes: below, such a box spares hardly a tile
+constexpr float kOrientedRatio = 2.0F;  // least axis ratio: below, such a box spares hardly a tile
 
 template <class T>
 struct OrientedBox {
   bool used = false;            // the ellipse is long enough, and not too long for its rounding
   T x{}, y{};                   // px, centre
-  T axis_x{}, axis_y{};         // of the long side, unit length
+  T axis_x{}, axis_y{};         // direction of the long side, unit length
   T half_long{}, half_short{};  // px
 };
 
@@ -59,8 +59,8 @@ OrientedBox<T> oriented_box(const Projected<T>& p, T reach) {
   return box;
 }
 
-// What squares of one size are held against: half their side, from the first pixel centre to the
-// last, and the box's, along the axes of the screen and of the box.
+// Limits for squares of one size: half their side, from the first pixel centre to the last, and the
+// box's, along the axes of the screen and of the box.
 template <class T>
 struct BoxLimits {
   T screen_x, screen_y, along, across;  // px
@@ -164,7 +164,7 @@ bool make_tile_geometry(const View<T>& view, const Gaussian<T>& g, const TileRul
   return true;
 }
 
-// Whether a tile among boxes.tiles is touched by the box along the ellipse, where there is one.
+// True if the box along the ellipse touches a tile among boxes.tiles, or if there is no such box.
 template <class T>
 bool touches_tile(const TileBoxesOf<T>& boxes, IndexOf<T> tile_x, IndexOf<T> tile_y) {
   using Index = IndexOf<T>;
@@ -173,7 +173,7 @@ bool touches_tile(const TileBoxesOf<T>& boxes, IndexOf<T> tile_x, IndexOf<T> til
                  box_offset(boxes.box, Index(tile_x * kTilePx), Index(tile_y * kTilePx), kTilePx));
 }
 
-// Of such a tile: a bit for each part, row by row, that the splat may touch.
+// The bitmap of such a tile: a bit for each part, row by row, that the splat may touch.
 template <class T>
 std::uint32_t part_bitmap(const TileBoxesOf<T>& boxes, const TileRules& rules, IndexOf<T> tile_x,
                           IndexOf<T> tile_y) {

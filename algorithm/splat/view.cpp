@@ -1,4 +1,4 @@
-// What cameras are refused.
+// Checks of cameras: those that are refused throw.
 #include "algorithm/splat/view.h"
 
 #include <fmt/format.h>

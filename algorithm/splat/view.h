@@ -14,8 +14,8 @@ namespace sgs {
 
 template <class T>
 struct View {
-  glm::vec<3, T> position;           // camera centre, world, rounded to T
-  glm::vec<3, T> position_low;       // what that rounding left: far from the origin it is visible
+  glm::vec<3, T> position;      // camera centre, world, rounded to T
+  glm::vec<3, T> position_low;  // remainder of that rounding: far from the origin it is visible
   glm::vec<3, T> cam_from_world[3];  // rows of R^T: the camera's x, y, z axes in the world frame
   T focal_x, focal_y;                // px
   T stretch;                         // at least the largest singular value of cam_from_world

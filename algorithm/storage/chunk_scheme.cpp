@@ -127,8 +127,8 @@ class TableCheck {
   const std::uint32_t most_;
   const ActivatedCloud& decoded_;
   const std::string& source_;
-  std::vector<std::uint32_t> level_;  // of each node, from 1; 0: no parent yet
-  std::vector<char> in_chunk_;        // of each slot
+  std::vector<std::uint32_t> level_;  // [node] from 1; 0: no parent yet
+  std::vector<char> in_chunk_;        // [slot]
 };
 
 // The table of an image, with nothing in it believed. decoded: the Gaussians by slot. source: what
@@ -151,7 +151,7 @@ ChunkTree read_chunk_table(const MemoryImage& image, std::uint32_t chunk_gaussia
   return tree;
 }
 
-constexpr std::uint32_t kMostGaussians = 65535;  // of a chunk
+constexpr std::uint32_t kMostGaussians = 65535;  // largest chunk
 
 class ChunkScheme : public StorageScheme {
  public:

@@ -17,7 +17,7 @@ using Fault = std::optional<std::string>;
 
 template <class Quaternion>
 bool is_rotation(const Quaternion& quat) {
-  constexpr double kRounding = 1e-5;  // of components that were normalised in float
+  constexpr double kRounding = 1e-5;  // rounding of components that were normalised in float
   double squared = 0;
   for (int k = 0; k < 4; ++k) squared += static_cast<double>(quat[k]) * quat[k];
   return std::abs(squared - 1) < kRounding;
@@ -92,7 +92,7 @@ Fault fault_of_bound(const SplitFirstHalf& first, const Gaussian<float>& g, Coar
 }
 
 Fault fault_of_values(const DecodedGaussian& decoded, int sh_degree) {
-  constexpr double kRounding = 1 + 1e-5;  // of an exponential in float
+  constexpr double kRounding = 1 + 1e-5;  // rounding of an exponential in float
   const Gaussian<float>& g = decoded.gaussian;
   if (!within(g.mean, kMaxCoordinate)) {
     return fmt::format("centre: got ({}, {}, {}), expected magnitudes of at most {}", g.mean.x,

@@ -29,7 +29,7 @@ struct PackedFacts {
   std::string name;                   // cut to kMostNameBytes in the file
   std::uint64_t gaussians = 0;        // in the scene, stored or not
   std::uint64_t dropped_invalid = 0;  // before that, because a value was not finite
-  int sh_bands_left_out = 0;          // of the scene's, that storage.sh_tolerance spared
+  int sh_bands_left_out = 0;          // bands of the scene that storage.sh_tolerance spared
 };
 
 struct PackedScene {
@@ -39,7 +39,7 @@ struct PackedScene {
   std::uint32_t checksum = 0;
 };
 
-// Whether a path ends in kImageFileExtension.
+// True if a path ends in kImageFileExtension.
 bool is_image_file(const std::string& path);
 
 // image: stored as `storage` says. Appears under `path` once it is complete. Throws InputError when
@@ -48,8 +48,8 @@ void write_image_file(const std::string& path, const PackedFacts& facts,
                       const StorageConfig& storage, const MemoryImage& image);
 
 // Throws InputError: not such a file, of another version, shorter or longer than it says, changed
-// (checksum), or with a header whose numbers do not fit each other. What the tables and records say
-// is checked by restore_scene (stored_scene.h).
+// (checksum), or with a header whose numbers do not fit each other. The contents of tables and
+// records are checked by restore_scene (stored_scene.h).
 PackedScene read_image_file(const std::string& path);
 
 }  // namespace sgs

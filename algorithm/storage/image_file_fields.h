@@ -27,9 +27,9 @@ constexpr std::size_t field_bytes() {
 struct ImageFileHeader {
   PackedFacts facts;
   StorageConfig storage;
-  SecondHalfFormat format;   // of storage.encoding
+  SecondHalfFormat format;   // format of storage.encoding
   std::uint32_t stored = 0;  // Gaussians
-  TableLayout table;         // what its layout follows from, as the order's scheme says
+  TableLayout table;         // values that its layout follows from, as the order's scheme says
   std::vector<Region> regions;
 };
 

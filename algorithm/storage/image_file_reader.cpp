@@ -15,7 +15,7 @@
 namespace sgs {
 namespace {
 
-constexpr std::size_t kFirstFieldEnd = kFieldsAt + 4;  // of the storage order
+constexpr std::size_t kFirstFieldEnd = kFieldsAt + 4;  // end of the storage order
 
 std::uint64_t number_at(const std::uint8_t* at, std::size_t bytes) {
   std::uint64_t value = 0;

@@ -8,8 +8,8 @@
 namespace sgs {
 
 struct ShBands {
-  int degree = 0;         // of what is stored
-  double most_error = 0;  // that the bands beyond it add to a channel of any colour
+  int degree = 0;         // degree that is stored
+  double most_error = 0;  // most that the bands beyond it add to a channel of any colour
 };
 
 // The lowest degree whose colours, of every Gaussian that is stored and from every direction, are

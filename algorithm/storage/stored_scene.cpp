@@ -60,7 +60,7 @@ StoredScene store_with_loss(KeptBands kept, const StorageConfig& config, Encode&
 
 StoredScene store_scene(ActivatedCloud cloud, const StorageConfig& config,
                         const std::vector<Camera>& weighing, const VqProgress& progress) {
-  scheme_of(config.order).check(config);  // before the work
+  scheme_of(config.order).check(config);  // before anything is computed
   KeptBands kept(std::move(cloud), config);
   switch (config.encoding) {
     case SecondHalfEncoding::kRaw: {

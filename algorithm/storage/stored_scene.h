@@ -29,17 +29,17 @@ using StoredTable = std::variant<VoxelGrid, ChunkTree, NoTable>;
 struct StoredScene {
   StorageConfig storage;  // nothing left to be chosen
   MemoryImage image;
-  ActivatedCloud decoded;                  // what the units get out of the image's records
-  StoredTable table;                       // of `decoded`
+  ActivatedCloud decoded;                  // the image's records as the units decode them
+  StoredTable table;                       // table of `decoded`
   std::optional<ActivatedCloud> original;  // whole and not encoded; none where nothing was lost
   // [slot] index in the scene's file; none of a scene out of a packed file, which does not say.
   std::optional<std::vector<std::uint32_t>> file_indices;
   std::uint64_t gaussians = 0;  // in the scene, stored or not
-  int sh_bands_left_out = 0;    // of the scene's, that storage.sh_tolerance spared
+  int sh_bands_left_out = 0;    // bands of the scene that storage.sh_tolerance spared
   double sh_error = 0;          // most that they add to a channel of a colour
 
-  // Whether `original`, or `decoded` in its stead, is what was stored. Not of a scene restored from
-  // a lossy encoding: what that cost cannot be told.
+  // True if `original`, or `decoded` in its stead, is what was stored. False for a scene restored
+  // from a lossy encoding: what that cost cannot be told.
   bool original_known() const {
     return original.has_value() ||
            (storage.encoding == SecondHalfEncoding::kRaw && sh_bands_left_out == 0);

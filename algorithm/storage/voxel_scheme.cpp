@@ -27,7 +27,7 @@ glm::ivec3 place_of(unsigned bit) {
 // Cells of all voxels, relative to the root's corner.
 std::vector<glm::ivec3> voxel_cells(const VoxelGrid& grid, const std::string& source) {
   if (grid.nodes.empty()) return {};
-  std::vector<glm::ivec3> blocks{glm::ivec3(0)};  // of one level
+  std::vector<glm::ivec3> blocks{glm::ivec3(0)};  // blocks of one level
   std::size_t level_begin = 0;                    // its first node
   for (int level = 0; level < grid.frame.levels; ++level) {
     const bool last = level + 1 == grid.frame.levels;

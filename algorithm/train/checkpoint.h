@@ -7,10 +7,10 @@ namespace sgs {
 
 struct Checkpoint {
   std::string work;      // one line that says of what and how; whoever resumes compares it
-  std::string pace;      // what may be another from here on, in words; may be empty
+  std::string pace;      // values that may differ from here on, in words; may be empty
   std::string contents;  // digest of the files that `work` names; compared, too
-  std::string log;       // what was logged so far
-  double seconds = 0;    // that it took to come here
+  std::string log;       // the log so far
+  double seconds = 0;    // duration up to here
   std::string state;     // Fitting::saved()
 };
 

@@ -15,9 +15,9 @@ namespace sgs {
 
 struct DensificationConfig {
   double pull = 2e-4;             // mean |dL/d(centre)| above which more are needed, half screens
-  double clone_share = 0.01;      // of the scene's extent: larger ones are split
+  double clone_share = 0.01;      // share of the scene's extent: larger ones are split
   double least_opacity = 0.005;   // fainter ones go
-  double most_scale_share = 0.1;  // of the extent, and
+  double most_scale_share = 0.1;  // share of the extent, and
   double most_radius_px = 20;     // on the screen: larger ones go once opacities were reset
   double reset_opacity = 0.01;
 };

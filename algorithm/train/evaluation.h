@@ -32,8 +32,8 @@ Quality mean_quality(const std::vector<Quality>& each);
 // The quality of paper order's pictures of a scene, and the share of them that is out of order:
 // means over the photographs; shares of all views together.
 struct PaperQuality {
-  Quality paper;                // of the pictures in paper order, as the golden renderer draws them
-  Quality reference;            // of the same scene's reference pictures
+  Quality paper;                // pictures in paper order, as the golden renderer draws them
+  Quality reference;            // reference pictures of the same scene
   double misordered_gaussians;  // share of (group, Gaussian) pairs that are rendered
   double misordered_pixels;     // share of blends behind a splat that is farther, at the same pixel
   double penalty;               // L_CBP

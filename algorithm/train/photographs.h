@@ -36,7 +36,7 @@ class Photographs {
   const Camera& camera(std::size_t at) const { return stored_[at].camera; }
   // As seen before a background: colours to 16 bits, those of 8 bits exactly.
   Image before(std::size_t at, const glm::vec3& background) const;
-  // Whether light comes through any of them.
+  // True if light comes through any of them.
   bool transparent() const { return transparent_; }
 
  private:

@@ -12,8 +12,8 @@
 namespace sgs {
 
 struct StartConfig {
-  double opacity = 0.5;      // of each Gaussian; the original has 0.1
-  double scale_share = 0.5;  // of the distance to its neighbours; the original has 1
+  double opacity = 0.5;      // each Gaussian's; the original has 0.1
+  double scale_share = 0.5;  // share of the distance to its neighbours; the original has 1
 };
 
 // The points that the data set brings; where it brings none `count` random ones in box_to_fill().

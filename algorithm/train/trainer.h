@@ -38,14 +38,14 @@ struct TrainingConfig {
   double grow_from = 0.02, grow_to = 0.8;  // densification
   double full_size_from = 0.25;            // before it pictures are smaller
   double degrees_by = 0.15;                // SH degrees are raised evenly until here
-  double first_downscale = 4;              // of the pictures of the first step
+  double first_downscale = 4;              // for the pictures of the first step
   int grow_every = 100;                    // steps
 
   Growth growth = Growth::kMcmc;
   double growth_factor = 1.05;  // each time, MCMC
-  double noise = 5e5;           // of positions, times their rate, MCMC
-  double opacity_share = 0.01;  // of the mean opacity in the loss, MCMC
-  double scale_share = 0.01;    // of the mean scale in the loss, MCMC
+  double noise = 5e5;           // noise of positions, times their rate, MCMC
+  double opacity_share = 0.01;  // weight of the mean opacity in the loss, MCMC
+  double scale_share = 0.01;    // weight of the mean scale in the loss, MCMC
   DensificationConfig densification;
   int reset_every = 3'000;  // steps, original
 
@@ -98,7 +98,7 @@ class Trainer : public Fitting {
   Photographs& photographs_;
   const double extent_;
   int next_step_ = 0;
-  double downscale_ = 0;  // of the photographs as they are loaded; 0: not yet
+  double downscale_ = 0;  // downscale of the loaded photographs; 0: none yet
   GaussianCloud cloud_;
   ActivatedCloud activated_;
   Adam adam_;

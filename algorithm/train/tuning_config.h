@@ -18,7 +18,7 @@ namespace sgs {
 
 struct TuningConfig {
   int steps = 3'000;
-  std::uint64_t seed = 1;  // of the order of views
+  std::uint64_t seed = 1;  // seeds the order of views
   ComparisonRule comparison;
   // Rates are the original's, centres rest; times `rate` at first and `last_rate` of that in the
   // end, falling exponentially.

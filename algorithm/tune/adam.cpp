@@ -65,7 +65,7 @@ void update_row(std::size_t count, const StepFactors& factors, const float* __re
   }
 }
 
-// Whether a scene may hold these parameters: [count], behind the last of them zeros.
+// True if a scene may hold these parameters: [count], with zeros behind the last of them.
 SGS_WIDEST_LANES
 bool within_limits(std::size_t count, const float* __restrict p) {
   static_assert(kMaxCoordinate == kMaxCoefficient);

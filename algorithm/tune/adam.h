@@ -56,11 +56,12 @@ class Adam {
 
   // m = beta1 m + (1 - beta1) g, v = beta2 v + (1 - beta2) g^2,
   // p -= rate (m / (1 - beta1^n)) / (sqrt(v / (1 - beta2^n)) + epsilon),
-  // for the Gaussians that gradient holds. What is not seen rests: its moments too, and n is the
-  // number of its own updates, so that one that is rarely seen, or new, is corrected as it must be.
-  // A Gaussian whose parameters would leave the limits of gaussian_cloud.h stays where it is; the
-  // first such is returned. The same bits whatever the number of threads. Throws std::logic_error
-  // where gradient, cloud and moments are not of one degree, or cloud and moments not of one size.
+  // for the Gaussians that gradient holds. A Gaussian that is not seen rests: its moments too. n is
+  // the number of its own updates, so that one that is rarely seen, or new, is corrected as it must
+  // be. A Gaussian whose parameters would leave the limits of gaussian_cloud.h stays where it is;
+  // the first such is returned. The same bits whatever the number of threads. Throws
+  // std::logic_error where gradient, cloud and moments are not of one degree, or cloud and moments
+  // not of one size.
   std::optional<std::uint32_t> step(const CloudGradient& gradient, const LearningRates& rates,
                                     GaussianCloud& cloud);
 

@@ -12,7 +12,7 @@ namespace sgs {
 namespace {
 
 struct GroupPenalty {
-  double sum = 0;  // of T_i S_i
+  double sum = 0;  // sum of T_i S_i
   std::uint64_t rendered = 0;
   std::vector<std::uint32_t> misordered;  // positions in the splats
 };

@@ -32,7 +32,7 @@ struct BoundaryPenalty {
   double value = 0;                   // L_CBP, world units
   double count = 0;                   // N
   std::uint64_t rendered = 0;         // (group, Gaussian) pairs
-  std::uint64_t misordered = 0;       // of these
+  std::uint64_t misordered = 0;       // misordered pairs among these
   std::vector<std::uint32_t> groups;  // [splats] in how many T_i = 1
 };
 

@@ -23,7 +23,7 @@ constexpr std::uint32_t kNoSplat = 0xffffffff;
 struct GroupSequences {
   int width = 0, height = 0;           // px, of the frame
   std::vector<Splat> splats;           // each Gaussian that may be seen, once
-  std::vector<PixelRect> groups;       // of the frame, which they cover; corners on multiples of 4
+  std::vector<PixelRect> groups;       // they cover the frame; corners on multiples of 4
   std::vector<std::size_t> first;      // [groups + 1] where each group's sequence begins
   std::vector<std::uint32_t> entries;  // positions in splats, in the order of blending
 

@@ -10,7 +10,7 @@ namespace sgs {
 // The pixels of a sub-tile while their blending is differentiated.
 struct SubtileAdjoint {
   float red[kSubtilePixels], green[kSubtilePixels], blue[kSubtilePixels];  // dL/dC
-  float behind[kSubtilePixels];                                            // of the next splat
+  float behind[kSubtilePixels];  // `behind` of splat_gradient.h, for the next splat
 };
 
 // FalloffMoments of one splat, each lane by itself; over any number of sub-tiles.

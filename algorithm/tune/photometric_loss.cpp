@@ -103,7 +103,7 @@ class LossPasses {
     differentiate_similarity(
         count_, {rows.inner(0), rows.inner(1), rows.inner(2), rows.inner(3), rows.inner(4)});
     ssim_[y] = std::accumulate(rows.inner(1), rows.inner(1) + count_, 0.0);
-    const std::size_t by_means[] = {0, 2, 4};  // of a, a^2 and a b
+    const std::size_t by_means[] = {0, 2, 4};  // derivatives by the means of a, a^2 and a b
     for (std::size_t k = 0; k < 3; ++k) {
       filter_across(rows.whole(by_means[k]), count_, window_, derivatives_.row(k, y));
     }
@@ -140,7 +140,7 @@ class LossPasses {
   const SsimWindow<T> window_;
   const std::vector<T> zeros_;
   RowStore<T> moments_;            // under the window across
-  RowStore<T> derivatives_;        // of SSIM by the means, under the window across
+  RowStore<T> derivatives_;        // derivatives of SSIM by the means, under the window across
   std::vector<double> l1_, ssim_;  // sums over each row
 };
 

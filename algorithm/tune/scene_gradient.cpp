@@ -39,7 +39,7 @@ class GroupGradient {
  private:
   // One splat in one sub-tile.
   struct Blend {
-    std::uint32_t entry;  // of the sequences
+    std::uint32_t entry;  // entry of the sequences
     std::uint32_t at;     // the sub-tile's place in the group
     std::uint16_t x, y;   // the sub-tile, in the whole frame
   };

@@ -52,7 +52,7 @@ template <class T>
 struct ShareGradient {
   T weight;   // dC/dc = alpha T
   T falloff;  // dL/dpower, power = -d^T conic d / 2; over opacity, it is dL/dopacity
-  T behind;   // of the splat in front of this one
+  T behind;   // `behind` for the splat in front of this one
 };
 
 // alpha: as blended, capped at 0.99, or 0. before: T in front of the splat. toward: g . c. slope:

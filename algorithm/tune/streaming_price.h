@@ -15,7 +15,7 @@ namespace sgs {
 template <class T>
 struct StreamingPrice {
   T value;
-  SplatGradient<T> by_splat;  // of it
+  SplatGradient<T> by_splat;  // gradient of `value`
 };
 
 // Opacity at half of the whole price.

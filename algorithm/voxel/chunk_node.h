@@ -50,7 +50,7 @@ void quantise(const ChunkBound* bounds, ChunkNode& node);
 ChunkBound child_bound(const ChunkNode& node, int child);
 
 // Decoding of a child's quantised bounds, for any scalar.
-constexpr int kExtentSteps = 16;  // of an octave
+constexpr int kExtentSteps = 16;  // steps in an octave
 constexpr int kMostExtent = 255;
 
 // 2^(-(15 - q mod 16) / 16), rounded up, so that no extent comes back smaller.

@@ -51,7 +51,7 @@ inline Ray pixel_ray(const View<float>& view, int x, int y) {
   return pixel_ray_of(view, static_cast<float>(x), static_cast<float>(y));
 }
 
-// Whether the crossing of one plane comes before that of another; equal times go by axis.
+// True if the crossing of one plane comes before that of another; equal times go by axis.
 template <class T>
 bool crosses_before(T time_a, int axis_a, T time_b, int axis_b) {
   return time_a < time_b || (time_a <= time_b && axis_a < axis_b);

@@ -202,7 +202,7 @@ class RayPath {
   glm::ivec3 eye_{0};   // its cell, relative to the root's corner
   Index cell_[3] = {};  // likewise
   Now now_ = Now::kOutside;
-  int level_ = 1;    // of the node to look into: it spans 4^level cells
+  int level_ = 1;    // level of the node to look into: it spans 4^level cells
   int highest_ = 1;  // level of the nodes that are kept
   VoxelNode nodes_[kNodesOfRay];
 };

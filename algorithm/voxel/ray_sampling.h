@@ -124,13 +124,13 @@ class SamplePath {
 
   VoxelFrame frame_;
   double step_;           // world units
-  double time_step_ = 0;  // of the ray
+  double time_step_ = 0;  // time along the ray of one step
   Ray ray_{};
   glm::ivec3 eye_{0}, cell_{0};  // relative to the root's corner
   Now now_ = Now::kOutside;
   std::int64_t sample_ = -1, last_voxel_ = -1;
-  int block_level_ = 0;      // of the block that was looked into last
-  std::uint32_t index_ = 0;  // of the child there
+  int block_level_ = 0;      // level of the block that was looked into last
+  std::uint32_t index_ = 0;  // index of the child there
   bool found_ = false;       // it is occupied
 };
 

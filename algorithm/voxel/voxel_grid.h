@@ -48,7 +48,7 @@ struct VoxelGrid {
   VoxelFrame frame;
   std::vector<VoxelNode> nodes;     // breadth first, root at 0; empty for an empty cloud
   std::vector<VoxelRecord> voxels;  // Morton order
-  std::vector<float> cuts;          // of voxels into pieces: voxel_cuts.h
+  std::vector<float> cuts;          // cuts of voxels into pieces: voxel_cuts.h
 };
 
 // Place of local cell (x, y, z), each 0 to 3, among the 64 children.

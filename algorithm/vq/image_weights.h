@@ -15,8 +15,8 @@ namespace sgs {
 //   anywhere:  opacity times the mean projected area over a sphere of directions, s1 s2 + s2 s3 +
 //              s3 s1 up to a factor, capped at its 99th percentile. For what these cameras do not
 //              see and others will.
-// 0.7 of the first and 0.3 of the second, each of mean 1; without cameras only the second. Of many
-// cameras 64, evenly spaced, are rendered, none with more than 2^20 px. The same bits whatever the
+// 0.7 of the first and 0.3 of the second, each of mean 1; without cameras only the second. At most
+// 64 cameras, evenly spaced, are rendered, none with more than 2^20 px. The same bits whatever the
 // number of threads.
 std::vector<float> image_weights(const ActivatedCloud& cloud, const std::vector<Camera>& cameras);
 

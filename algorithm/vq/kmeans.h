@@ -11,7 +11,7 @@ namespace sgs {
 
 struct KMeansConfig {
   std::uint32_t entries = 4096;
-  std::uint32_t iterations = 20;  // of Lloyd, at most
+  std::uint32_t iterations = 20;  // Lloyd iterations at most
   std::uint64_t seed = 1;
   std::size_t training_points = 1U << 18;  // drawn by weight for the iterations
 };

@@ -38,7 +38,7 @@ class CentroidBlocks {
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(indices_.size() / kLanes); }
 
-  // Best of block `block` and `best`. Of many dimensions the block is left as soon as the first
+  // Best of block `block` and `best`. With many dimensions the block is left as soon as the first
   // few put all of it too far away.
   template <std::size_t kDims>
   [[gnu::always_inline]] void compare(std::uint32_t block, const float* point,

@@ -112,7 +112,7 @@ std::vector<std::uint32_t> labels_of(const std::vector<RotationMatch>& matches) 
 std::array<float, 3> turn_sensitivity(const glm::vec3& falling_scale, float pixel_size) {
   // Where pixels are not known, thinner than this share of the longest axis is not seen.
   constexpr double kThinnest = 0.02;
-  constexpr double kLeastPixel = 1e-4;  // of the longest axis; keeps quotients finite
+  constexpr double kLeastPixel = 1e-4;  // share of the longest axis; keeps quotients finite
   constexpr double kSaturation = 0.05;  // radians of half angle at sensitivity 1
   double squares[3], seen[3];
   const double longest = falling_scale[0];

@@ -51,7 +51,7 @@ constexpr float kRounding = 2e-6F;
 
 struct Turned {
   Monomials coefficients;
-  float root_share;  // of the largest
+  float root_share;  // root of the largest share
   std::size_t half_turn;
 };
 

@@ -24,8 +24,8 @@ struct RotationMatch {
 // (0) or one of the ellipsoid's own axes (1, 2, 3).
 glm::dmat4 rotation_cost(const float* point, std::size_t half_turn);
 
-// Whether an entry could cost less after that half turn. Canonical quaternions have their largest
-// component first, and a half turn about axis k puts component k there: far from the border of the
+// True if an entry could cost less after that half turn. Canonical quaternions have their largest
+// component first, and a half turn about axis k puts component k there. Far from the border of the
 // canonical domain there is no entry to be found across it.
 bool near_border(const float* point, std::size_t half_turn);
 

@@ -77,8 +77,8 @@ ActivatedCloud plain(ActivatedCloud cloud, const VqConfig& config) {
 }
 
 struct Quality {
-  std::vector<double> psnr_db;  // of each view
-  double seconds = 0;           // of one training
+  std::vector<double> psnr_db;  // one a view
+  double seconds = 0;           // for one training
 };
 
 std::string text(const Quality& quality) {

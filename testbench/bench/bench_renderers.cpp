@@ -44,7 +44,7 @@ using namespace sgs;
 constexpr int kMaxThreads = 999, kMaxSizePx = 65536;
 constexpr int kRuns = 2;
 constexpr std::uint32_t kChunkGaussians = 8;  // as the preset `exact`
-constexpr double kFinished = 1e-4;            // of the semantics
+constexpr double kFinished = 1e-4;            // transmittance of a finished pixel, by the semantics
 constexpr double kThresholds[] = {0.1, 0.01, 0.001, kFinished, 1e-5};
 
 struct Options {
@@ -161,7 +161,7 @@ void bench_scene(const std::string& spec, const Options& options) {
   measure("tiles in half", [&] { return render_tiles(view, cloud, TileOrderConfig{}).frame; });
 }
 
-// Whether the text is such a number and nothing else.
+// True if the text is a number from `least` to `most` and nothing else.
 bool read_number(const std::string& text, int least, int most, int& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() && value >= least &&
@@ -188,7 +188,7 @@ void set_size(const std::string& text, Options& options) {
   }
 }
 
-// What stands before the scenes, which it takes away. Throws InputError.
+// Takes the options before the scenes away from `words`. Throws InputError.
 Options take_options(std::vector<std::string>& words) {
   Options options;
   while (words.size() >= 2 && words.front().rfind("--", 0) == 0) {

@@ -1,13 +1,13 @@
 // Benchmark of one step of training: milliseconds, all threads.
 // usage: bench_tune SCENE...   (see bench_scene.h)
 //
-// Of each scene at most kMostGaussians, evenly drawn, seen by its first camera at 400 x 400 px; the
-// target is the scene's own picture, the parameters are moved off it. Stages: `order` projects,
-// sorts and bins, `draw` blends, `loss` with SSIM, `gradient` back to parameters, `Adam`,
-// `activate` what it moved; of each the processor time over the threads, which is what it takes
-// where nobody else computes. `step` is their sum, `median` and `best` what steps took by the
-// clock. Medians of kRuns steps. Exit status 1 when the best step of a scene takes longer than the
-// budget.
+// Each scene gives at most kMostGaussians, evenly drawn, seen by its first camera at 400 x 400 px.
+// The target is the scene's own picture, and the parameters are moved off it. Stages: `order`
+// projects, sorts and bins, `draw` blends, `loss` with SSIM, `gradient` back to parameters, `Adam`,
+// `activate` what it moved. Each stage's time is the processor time over all threads, which is its
+// duration when nobody else computes. `step` is the sum of the stages; `median` and `best` are
+// measured by the clock. Medians of kRuns steps. Exit status 1 when the best step of a scene takes
+// longer than the budget.
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
@@ -95,7 +95,7 @@ class Trainer {
   static constexpr std::size_t kStages = 6;
   using Stages = std::array<double, kStages>;
 
-  // Of each stage.
+  // Processor time of each stage of one step, in ms.
   Stages step_ms() {
     GroupSequences sequences;
     RenderResult picture;

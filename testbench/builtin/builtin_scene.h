@@ -21,7 +21,7 @@ struct BuiltinPath {
   bool closed = false;       // from the last key back to the first
 };
 
-// Whether `spec` names a built-in scene, that is, begins with "builtin:".
+// True if `spec` names a built-in scene, that is, begins with "builtin:".
 bool is_builtin_scene(const std::string& spec);
 
 // Makes the scene of `spec`, "builtin:NAME" or "builtin:NAME?n=COUNT" with COUNT Gaussians, 1 to

@@ -29,11 +29,11 @@ struct Capsule {
 
 struct Lighting {
   glm::dvec3 sun_direction{0.0, -1.0, 0.0};        // unit, towards the sun
-  glm::dvec3 sun_colour{1.0};                      // of a white surface that faces it
+  glm::dvec3 sun_colour{1.0};                      // light of a white surface that faces it
   glm::dvec3 sky_colour{0.3}, ground_colour{0.1};  // ambient from above and from below
   double shadow_softness = 0.1;                    // growth of the penumbra per unit of distance
   std::vector<Capsule> occluders;
-  std::vector<ZonalLobe> surroundings;  // what a mirror would show
+  std::vector<ZonalLobe> surroundings;  // light that a mirror would show
 
   // Share of the sun, 0 to 1, that passes the occluders on the way to `point`.
   double sun_visibility(const glm::dvec3& point) const;

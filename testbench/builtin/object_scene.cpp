@@ -149,7 +149,7 @@ void add_marble(double share, std::vector<ScenePart>& parts) {
       glass);
   parts.push_back({shell.share, [shell](const PartSample& sample, Random& random) {
                      Surfel surfel = shell.surfel(sample, random);
-                     surfel.opacity = random.uniform(0.06, 0.22);  // what is inside shows through
+                     surfel.opacity = random.uniform(0.06, 0.22);  // the inside shows through
                      return surfel;
                    }});
   // Three ribbons twisted about the middle.

@@ -13,7 +13,7 @@ namespace sgs {
 namespace {
 
 constexpr double kEdge = 1e-3;        // keeps off the ends, where surfaces close to points
-constexpr double kDifference = 1e-4;  // of u and v, for derivatives
+constexpr double kDifference = 1e-4;  // step of u and v for derivatives
 constexpr double kMaxAspect = 2.5;    // longer ones would smear the texture
 
 // The surface near one point, to first order.

@@ -28,7 +28,7 @@ inline double thinning(const PartSample& sample, double usual) {
 
 // A part makes each of its Gaussians from its index and a random stream of its own.
 struct ScenePart {
-  double share = 1;  // of the scene's Gaussians, relative to the other parts
+  double share = 1;  // its part of the scene's Gaussians, relative to the other parts
   std::function<Surfel(const PartSample&, Random&)> surfel;
 };
 

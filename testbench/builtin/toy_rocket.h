@@ -11,7 +11,7 @@ namespace sgs {
 // A rocket 2.5 units high that stands on its fins at the origin; shares add up to about `share`.
 std::vector<ScenePart> toy_rocket_parts(double share);
 
-// What casts its shadow.
+// The bodies that cast the rocket's shadow.
 std::vector<Capsule> toy_rocket_occluders();
 
 }  // namespace sgs

@@ -13,7 +13,7 @@
 namespace sgs {
 namespace {
 
-// Whether all of `text` is a number of the type of `value`.
+// True if all of `text` is a number of the type of `value`.
 template <class Number>
 bool read(const std::string& text, Number& value) {
   const char* const end = text.data() + text.size();
@@ -58,7 +58,7 @@ void check_command(const CLI::App& app, int argc, const char* const* argv) {
 }  // namespace
 
 struct CommandLine::App {
-  std::unique_ptr<CLI::App> own;  // of the program
+  std::unique_ptr<CLI::App> own;  // the program's, null for a command
   CLI::App* app;                  // own, or one of its commands
   std::vector<std::unique_ptr<CommandLine>> commands;
 
@@ -127,7 +127,7 @@ void CommandLine::real(const char* name, std::optional<double>& value, double lo
   app_->add(name, value, what)->check(in_interval(lo, hi, "a number"));
 }
 
-// What follows the value of an option that may be repeated is another argument.
+// An option that may be repeated takes one value each time: what follows is another argument.
 void CommandLine::texts(const char* name, std::vector<std::string>& values, const char* what) {
   app_->add(name, values, what)->allow_extra_args(false);
 }

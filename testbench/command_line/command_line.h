@@ -1,5 +1,5 @@
-// What a program takes from its command line. CLI11 stands behind it, seen in one file alone: it
-// costs each file that includes it seconds to compile.
+// The options and arguments that a program takes from its command line. CLI11 stands behind it,
+// seen in one file alone: it costs each file that includes it seconds to compile.
 #pragma once
 
 #include <cstdint>
@@ -54,7 +54,7 @@ class CommandLine {
   // One option of this command is refused without another.
   void needs(const char* name, const char* other);
 
-  // Whether anything is left to do: --help and --version are answered here. Throws InputError.
+  // True if anything is left to do: --help and --version are answered here. Throws InputError.
   bool parse(int argc, const char* const* argv);
   std::string name() const;
   bool chosen() const;  // after parse(): whether this command was given

@@ -20,11 +20,10 @@ struct ConfigSource {
   std::string path() const;
 
   bool is_preset() const;
-  // What messages call a preset, "preset exact"; empty where it is none.
+  // A preset's name in messages, "preset exact"; empty for a file.
   std::string preset_in_words() const { return is_preset() ? "preset " + config : ""; }
 
-  // What it is called: the preset's name or the file's without folder and extension; empty without
-  // one.
+  // The preset's name, or the file's without folder and extension; empty without one.
   std::string name() const;
 
   // The same, and how many --set go over it: "exact + 2 settings".

@@ -1,4 +1,4 @@
-// What every executable does around its work: streams, errors, exit status.
+// The frame of every executable's main(): streams, errors, exit status.
 #pragma once
 
 #include <functional>

@@ -7,7 +7,7 @@ namespace {
 
 struct Caught {
   int signal;
-  void (*before)(int) = SIG_DFL;  // what it did
+  void (*before)(int) = SIG_DFL;  // its handler until then
 };
 
 volatile std::sig_atomic_t wished_now = 0;

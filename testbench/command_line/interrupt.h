@@ -1,4 +1,4 @@
-// Ctrl-C, or a request to end, as a wish that work may look at between two of its steps.
+// Ctrl-C, or a request to end, as a wish that a job may look at between two of its steps.
 #pragma once
 
 namespace sgs {

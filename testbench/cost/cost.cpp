@@ -35,7 +35,7 @@ CostResult logic_area(const MachineResult& machine, const Technology& technology
   return area;
 }
 
-// What flip-flops are in has a clock and leaks as logic does: parts, and memories in registers.
+// Area of all that is clocked and leaks as logic does: parts, and memories in registers.
 Band clocked_area(const MachineResult& machine, const Technology& technology) {
   Band area = logic_area(machine, technology).total;
   for (const SramUse& use : machine.sram_uses) {

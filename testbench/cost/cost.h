@@ -25,7 +25,7 @@ CostResult area_of(const FrameResult& frame, const Technology& technology);
 // (`dram`). Throws InputError as above.
 CostResult energy_of(const FrameResult& frame, const Technology& technology);
 
-// Of all accesses of one use.
+// Energy of all accesses of one use of on-chip memory, in joules.
 Band access_energy_j(const MachineResult& machine, const SramUse& use, const SramModel& model);
 
 }  // namespace sgs

@@ -13,7 +13,7 @@ double bank_bits(const SramUse& use) {
 double ports(const SramUse& use) { return use.shape.ports == SramPorts::kOne ? 1 : 2; }
 double banks(const SramUse& use) { return static_cast<double>(use.count) * use.shape.banks; }
 
-// Of the macros of a bank, with the rows that nobody uses.
+// Bits of a bank's macros, including rows that nobody uses.
 double macro_bits(const SramModel& model, const SramUse& use) {
   return std::max(bank_bits(use), model.least_rows * use.shape.width_bits);
 }
@@ -39,7 +39,7 @@ double SramModel::bare_read_pj(double bits, double width_bits) const {
 }
 
 Band SramModel::mm2(const SramUse& use) const {
-  constexpr double kMm2 = 1e-6;  // of a um2
+  constexpr double kMm2 = 1e-6;  // mm2 in a um2
   return kMm2 * banks(use) *
          (use.in_registers() ? register_um2(*this, use) : macro_um2(*this, use));
 }

@@ -20,7 +20,7 @@ struct SramPoint {
   std::string source;
 };
 
-// Of one bank with C bits, W of them accessed at once, P ports:
+// Area and energy of one bank with C bits, W of them accessed at once, and P ports:
 //   um2 = C (um2_bit + um2_bit_port (P - 1)) + W um2_width
 //   pJ of a read = W (pj_width + pj_cell sqrt(C)) + pj_decode sqrt(C)
 // sqrt(C) stands for the length of word lines, bit lines and the way there. The points are at most
@@ -30,7 +30,7 @@ struct SramModel {
   double um2_bit = 0, um2_bit_port = 0, um2_width = 0;
   double pj_width = 0, pj_cell = 0, pj_decode = 0;
   double least_rows = 0;
-  Band um2_register;   // of a bit in registers and its part of what reads them, on a die
+  Band um2_register;   // one bit in registers with its share of what reads them, on a die
   Band macro;          // area of a macro over that of the formula
   Band placed;         // area on a die over that of the bare macro
   Band access;         // energy over that of the formula
@@ -44,10 +44,10 @@ struct SramModel {
   double bare_um2(double bits, double width_bits, double ports) const;
   double bare_read_pj(double bits, double width_bits) const;
 
-  // Of all that is there of the use, on the die. An access of registers is charged as one of the
-  // macro that they replace.
+  // Area of all banks of the use, on the die. An access of registers is charged as one of the macro
+  // that they replace.
   Band mm2(const SramUse& use) const;
-  Band leakage_mw(const SramUse& use) const;  // of macros: registers leak as the logic does
+  Band leakage_mw(const SramUse& use) const;  // macros only: registers leak as the logic does
   Band read_pj(const SramUse& use) const;     // one access of one bank
   Band write_pj(const SramUse& use) const;
 };

@@ -1,5 +1,5 @@
-// What stands there costs in square millimetres, what it does in joules: a table of data that a
-// user can replace.
+// Cost of hardware: area of each part in mm2, energy of each operation in joules. A table of data
+// that a user can replace.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct PartCost {
   std::string source;
 };
 
-// What lies under all of them, by area.
+// Cost of the die beneath all parts, by area.
 struct DieCost {
   Band clock_pj_mm2_cycle;  // clock tree and registers, of logic
   Band logic_leakage_mw_mm2;
@@ -28,13 +28,13 @@ struct DieCost {
 struct MemoryInterfaceCost {
   bool counted = false;
   Band mm2, mw;
-  std::uint64_t write_queue_bytes = 0;  // of writes that wait; on-chip memory, beside mm2 and mw
+  std::uint64_t write_queue_bytes = 0;  // writes that wait; on-chip memory, beside mm2 and mw
   std::string source;
 };
 
 struct Technology {
-  std::string path;                       // of the table's file, for messages
-  std::string name;                       // of the node
+  std::string path;                       // the table's file, for messages
+  std::string name;                       // the node's name
   std::map<std::string, PartCost> parts;  // by kind
   SramModel sram;
   DieCost die;

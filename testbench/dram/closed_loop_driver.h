@@ -23,7 +23,7 @@ class ClosedLoopDriver : public sc_core::sc_module {
   struct Config {
     std::uint32_t window = 32;  // requests without an answer
     std::uint64_t requests = 0;
-    std::uint32_t request_bytes = 32;  // of requests that do not say
+    std::uint32_t request_bytes = 32;  // for requests that state no size
     std::uint32_t burst_bytes = 32;
     sc_core::sc_time clock_period;
   };

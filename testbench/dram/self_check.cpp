@@ -24,7 +24,7 @@ namespace sgs {
 
 namespace {
 
-constexpr std::uint32_t kPartBytes = 1 << 20;  // of memory, for each initiator
+constexpr std::uint32_t kPartBytes = 1 << 20;  // memory for each initiator
 constexpr std::uint32_t kPorts = 2;
 constexpr std::uint32_t kRandomInitiators = 2;
 

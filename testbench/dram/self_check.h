@@ -11,7 +11,7 @@ namespace sgs {
 struct SelfCheck {
   DramConfig dram;
   std::uint64_t seed = 1;
-  std::uint64_t transactions = 3000;  // of each random initiator
+  std::uint64_t transactions = 3000;  // by each random initiator
   OutputFile* vcd = nullptr;          // null: none
   OutputFile* dram_trace = nullptr;   // null: none
 };

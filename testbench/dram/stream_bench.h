@@ -27,7 +27,7 @@ struct StreamResult {
   double peak_gb_per_s = 0;
   double bus_gb_per_s = 0;  // whole bursts over all the time
   double row_hit_rate = 0;
-  double latency_mean_ns = 0;  // of reads; of writes when there are no reads
+  double latency_mean_ns = 0;  // reads; writes when there are no reads
   double latency_p50_ns = 0;
   double latency_p99_ns = 0;
   double power_mw = 0;  // both rails

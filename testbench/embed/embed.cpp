@@ -48,7 +48,7 @@ struct BusWithMemory : sc_core::sc_module {
   }
 };
 
-// What the units say of themselves: one of many ways to look at a data sheet.
+// Prints the counters that units publish: one of many ways to look at a data sheet.
 struct PrintedCounters : sgs::DataSheet {
   std::string name;
   void unit(const sc_core::sc_object& unit) override { name = unit.name(); }

@@ -13,7 +13,7 @@ struct GpuConfig {
   double bandwidth_gb_s = 102.4;
   double cache_mb = 4;
   double watts = 6.2;  // joules of a published frame over the time of the calibration: README.md
-  // Of the peaks: calibrated, see README.md.
+  // Shares of the peak issue rate and peak bandwidth that are reached: calibrated, see README.md.
   double issue_share = 0.125, bandwidth_share = 0.125;
 
   double instructions_a_second() const { return clock_mhz * 1e6 * schedulers * issue_share; }

@@ -11,14 +11,14 @@ namespace {
 constexpr double kWarp = 32;
 constexpr double kSector = 32;  // B, the least that comes from memory
 
-// Of one thread each.
+// Instructions of one thread.
 constexpr double kOfGaussian = 40;     // read, transformed, dropped
 constexpr double kOfCovariance = 260;  // in 3D, in 2D, its inverse, radius, tiles
-constexpr double kOfColourTerm = 6;    // of a coefficient: three channels
+constexpr double kOfColourTerm = 6;    // per coefficient: three channels
 constexpr double kOfPair = 12;         // its key, two stores
 constexpr double kOfKey = 30;          // in a pass of the sort
 constexpr double kOfRange = 8;
-// Of a warp.
+// Instructions of one warp.
 constexpr double kOfEntry = 16;  // from shared memory, distance, exponent, test
 constexpr double kOfBlend = 24;  // exponential, tests, colour, transmittance
 constexpr double kOfFetch = 20;  // an entry of a batch, by one thread
@@ -78,7 +78,8 @@ GpuStage ranges(const RasterWork& w) {
   return s;
 }
 
-// What gathers fetch from memory: all that they touch once, and what the cache does not hold again.
+// Bytes that gathers fetch from memory: everything they touch once, and repeats that the cache does
+// not hold.
 double gathered(double requests, double distinct, double bytes_each, double cache_bytes) {
   const double footprint = distinct * bytes_each;
   const double held = std::min(1.0, cache_bytes / std::max(footprint, 1.0));

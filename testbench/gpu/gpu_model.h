@@ -10,13 +10,13 @@
 
 namespace sgs {
 
-// What the published shares of traffic tell apart.
+// The parts of a frame for which shares of traffic are published.
 enum class GpuPart { kProjection, kSorting, kRendering };
 
 struct GpuStage {
   std::string name;
   GpuPart part;
-  double instructions = 0;        // of warps
+  double instructions = 0;        // counted in warps
   double scene_bytes = 0;         // parameters of Gaussians
   double intermediate_bytes = 0;  // between kernels, written and read
   double frame_bytes = 0;         // pixels

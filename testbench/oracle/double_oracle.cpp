@@ -50,9 +50,9 @@ glm::dvec3 colour_of(int degree, const glm::vec3* sh, const glm::dvec3& directio
   return glm::max(colour, glm::dvec3(0));
 }
 
-// Of [u; w] [u; w]^T + 0.3 I, |u| >= |w|: rows (u, sqrt(0.3), 0) and (w, 0, sqrt(0.3)) made
-// orthogonal. a c - b^2 has no digit left of splats wider than 10^8 px; this loses one for each ten
-// times of width.
+// Determinant of [u; w] [u; w]^T + 0.3 I, |u| >= |w|: rows (u, sqrt(0.3), 0) and (w, 0, sqrt(0.3))
+// made orthogonal. a c - b^2 has no digit left for splats wider than 10^8 px; this loses one for
+// each ten times of width.
 double determinant(const glm::dvec3& u, const glm::dvec3& w) {
   const double a = glm::dot(u, u) + 0.3;
   const double share = glm::dot(u, w) / a;
@@ -84,7 +84,7 @@ OracleSplat project_one(const Camera& camera, const GaussianCloud& cloud, std::s
       camera.focal_x / v.z * axes[0] - camera.focal_x * slope_x / (v.z * v.z) * axes[2];
   const glm::dvec3 row_y =
       camera.focal_y / v.z * axes[1] - camera.focal_y * slope_y / (v.z * v.z) * axes[2];
-  const glm::dvec3 u = row_x * m, w = row_y * m;  // of the covariance's factor
+  const glm::dvec3 u = row_x * m, w = row_y * m;  // rows of the covariance's factor
   s.a = glm::dot(u, u) + 0.3;
   s.b = glm::dot(u, w);
   s.c = glm::dot(w, w) + 0.3;

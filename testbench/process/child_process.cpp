@@ -27,7 +27,7 @@ enum class Answer : char { kResult, kFailure, kRefusal };
 // Before the text: its kind, and how long it is.
 constexpr std::size_t kHeadBytes = 1 + sizeof(std::uint64_t);
 
-int answer_to = -1;  // of a child: its end of the pipe
+int answer_to = -1;  // a child's end of the pipe; -1 in the parent
 
 bool write_all(const void* from, std::size_t bytes) {
   const char* at = static_cast<const char*>(from);

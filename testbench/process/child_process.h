@@ -10,7 +10,7 @@
 
 namespace sgs {
 
-// What went wrong with a child, and not with what it was asked for.
+// A child failed by itself, not because of its input.
 class ChildFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -29,12 +29,14 @@ class ChildProcess {
   // Readable, for poll(), when receive() has something to do.
   int descriptor() const { return from_; }
 
-  // Takes what has come of the answer, and waits where nothing has. Whether no more can come.
+  // Takes what has come of the answer, and waits where nothing has. Returns true when
+  // no more can come.
   bool receive();
 
-  // What work() returned, once it has. Throws the InputError that the child threw, in one line, and
-  // ChildFailure when it failed: with what() of the std::exception it threw, with what it
-  // gave to fail_child(), or with the signal or exit status that ended it, in one line. Once.
+  // Returns the result of work() once it has ended; may be called once. Throws the InputError that
+  // the child threw, in one line. Throws ChildFailure when it failed, in one line: with what() of
+  // the std::exception it threw, with what it gave to fail_child(), or with the signal or exit
+  // status that ended it.
   std::string result();
 
  private:

@@ -1,4 +1,4 @@
-// Work in a process of its own: the SystemC kernel elaborates once a process.
+// A job in a process of its own: the SystemC kernel elaborates once a process.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// What SystemC reports as an error, in a child process.
+// Errors that SystemC reports in a child process.
 #pragma once
 
 namespace sgs {

@@ -6,7 +6,8 @@
 
 namespace sgs {
 
-// What a machine's data sheets say now. Open intervals of its activities are closed.
+// Collects the values that a machine's data sheets have now. Open intervals of its activities are
+// closed.
 MachineResult collect(Machine& machine);
 
 // Its savings alone, of whoever publishes them.

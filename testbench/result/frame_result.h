@@ -1,5 +1,5 @@
-// What one simulated frame gives, as values: it outlives the simulation and crosses the boundary
-// between processes once. Reports are made from it.
+// Results of one simulated frame, as values: they outlive the simulation and cross the boundary
+// between processes once. Reports are made from them.
 #pragma once
 
 #include <cstddef>
@@ -44,7 +44,7 @@ struct UnitResult {
   bool charged = false;  // it did something that is paid for: operations, items or accesses
 };
 
-// Work of one kind that one component did, and what did it.
+// Operations of one kind that one component did, and the parts that did them.
 struct Operations {
   std::string component, kind;
   double count = 0;
@@ -59,8 +59,7 @@ struct Parts {
 struct DatapathResult {
   Datapath datapath;
   std::uint64_t items = 0;
-  std::uint64_t busiest_cycles =
-      0;  // that the unit with the most items to its lanes needs at least
+  std::uint64_t busiest_cycles = 0;  // least cycles of the unit with the most items to its lanes
 };
 
 // Accesses of one use, of all units that have it.
@@ -76,14 +75,14 @@ struct LeftOut {
   std::string saves;
 };
 
-// Of each part of the machine's work; several units' values added up.
+// Values by part of the machine, as DataSheet::by_part(); those of several units are added up.
 struct PartValues {
   std::string name, unit, meaning;
   std::vector<std::uint64_t> values;  // [part]
 };
-constexpr const char* kBytesOfParts = "bytes";  // that ports asked for
+constexpr const char* kBytesOfParts = "bytes";  // requested by ports
 
-// What the data sheets of a machine say, in the order in which they are published.
+// The contents of a machine's data sheets, in the order in which they are published.
 struct MachineResult {
   std::vector<UnitResult> units;
   std::vector<Operations> operations;  // those of lanes included
@@ -104,14 +103,14 @@ struct RegionTraffic {
 
 struct MemoryResult {
   std::uint64_t bytes = 0, bus_bytes = 0;  // asked for; moved, in whole bursts
-  std::vector<RegionTraffic> traffic;      // what is not 0
+  std::vector<RegionTraffic> traffic;      // regions with traffic
   std::vector<std::pair<std::string, std::uint64_t>> bus_bytes_by_region;  // all regions
   std::uint64_t transactions = 0;
   std::uint64_t row_hits = 0, row_misses = 0, row_conflicts = 0, refreshes = 0;
   double bandwidth_gb_s = 0, busy_bandwidth_gb_s = 0, peak_gb_s = 0;
   double read_latency_mean_ns = 0, read_latency_p50_ns = 0, read_latency_p99_ns = 0;
   std::uint32_t channels = 0;
-  double bus_utilisation = 0;  // of the busiest channel's data bus, 0 to 1
+  double bus_utilisation = 0;  // data bus of the busiest channel, 0 to 1
   Remedy remedy;               // for more of it
   double energy_j = 0;
   std::vector<std::pair<std::string, double>> energy_by_current_set_j, energy_by_region_j;

@@ -25,8 +25,8 @@ void add_ports(const MachineResult& machine, std::vector<LedgerLine>& lines) {
   }
 }
 
-// Of each datapath the unit that has most to do: a busy one does not hide behind another that has
-// lanes of the same kind.
+// Adds, for each datapath, the unit with the most to do: a busy one does not hide behind another
+// that has lanes of the same kind.
 void add_datapaths(const MachineResult& machine, std::vector<LedgerLine>& lines) {
   for (const DatapathResult& d : machine.datapaths) {
     lines.push_back({d.datapath.name + ": busiest", static_cast<double>(d.busiest_cycles), 1});
@@ -52,8 +52,8 @@ void find_unpaid_memories(const MachineResult& machine, std::vector<std::string>
   }
 }
 
-// What a memory is asked for in one cycle, as its unit says it and as its queues were seen to do
-// it, and what it can do; and whether an access fits a bank at all.
+// Finds memories asked for more in one cycle than they can do, as their unit says it or their
+// queues saw it. Also finds accesses that do not fit a bank.
 void find_impossible_memories(const MachineResult& machine, std::vector<std::string>& faults) {
   for (const SramUse& use : machine.sram_uses) {
     const SramShape& shape = use.shape;

@@ -1,4 +1,4 @@
-// What lies between a machine's memory ports and the channels' controllers, paid by the machine.
+// The path between a machine's memory ports and the channels' controllers, paid by the machine.
 #pragma once
 
 #include <cstdint>

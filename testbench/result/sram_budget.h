@@ -1,4 +1,4 @@
-// What a machine's data sheets take of its on-chip memories, beside what stands there.
+// Compares the on-chip memory that a machine's data sheets take with the bytes that stand there.
 #pragma once
 
 #include "modules/machine.h"

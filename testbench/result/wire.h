@@ -8,7 +8,7 @@
 namespace sgs {
 
 std::string to_wire(const FrameResult& result);
-// Of what to_wire() has made in the same build.
+// Reads the bytes that to_wire() made in the same build.
 FrameResult from_wire(const std::string& bytes);
 
 }  // namespace sgs

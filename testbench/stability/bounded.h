@@ -1,8 +1,8 @@
 // A scalar that computes what a datapath computes, bit for bit, and beside each value a proven
 // bound on its distance from what the formula gives without rounding: running error analysis
 // (Higham, Accuracy and Stability of Numerical Algorithms, section 3.3). The templates of
-// algorithm/splat and algorithm/tune instantiated with it bound their own rounding. What is given
-// is exact, or off by what rounding it to the format takes.
+// algorithm/splat and algorithm/tune instantiated with it bound their own rounding. Inputs
+// are exact, or off by their rounding to the format.
 #pragma once
 
 #include <cmath>
@@ -14,8 +14,8 @@
 
 namespace sgs {
 
-// Of a format: unit roundoff, half the distance of its smallest numbers, its largest; how a result
-// is rounded, and how far off 2^t is, in roundoffs (exp2.h).
+// Constants of a number format: unit roundoff, half the distance of its smallest numbers, its
+// largest. Also how a result is rounded, and how far off 2^t is, in roundoffs (exp2.h).
 struct Single {
   static constexpr double kRoundoff = 0x1p-24, kUnderflow = 0x1p-150, kExp2 = 2.2;
   static constexpr double kLargest = std::numeric_limits<float>::max();

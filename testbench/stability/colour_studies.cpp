@@ -120,7 +120,7 @@ Deviation colour_slope(double distance, Random& random) {
   for (int k = 0; k < 3; ++k) {
     w[k] = static_cast<float>(random.normal());
     const Exact& channel = here[static_cast<std::size_t>(k)];
-    drawn[k] = T(channel > 0 ? 1.0F : 0.0F);  // what counts is whether it was clamped
+    drawn[k] = T(channel > 0 ? 1.0F : 0.0F);  // only the clamping matters
     unit += std::abs(w[k]) * s.unit / length(at);
   }
   glm::vec<3, T> by_coeffs[kCoeffs];

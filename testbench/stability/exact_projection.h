@@ -23,7 +23,7 @@ struct ExactSplat {
   Exact x, y, depth;
   Exact cov_a, cov_b, cov_c, determinant;
   Exact conic_a, conic_b, conic_c;
-  Exact lambda;  // of which the radius is the root, times 3
+  Exact lambda;  // the radius is 3 sqrt(lambda)
 };
 
 // v = R^T (p - c).

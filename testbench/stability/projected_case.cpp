@@ -9,7 +9,7 @@
 namespace sgs {
 namespace {
 
-constexpr double kThin = 1e-10;  // of the longest axis
+constexpr double kThin = 1e-10;  // share of the longest axis
 
 // axes: columns in the camera frame, orthonormal but for their sign. The mean is unused.
 ProjectedCase placed(const Camera& camera, const glm::dvec3& v, glm::dmat3 axes,

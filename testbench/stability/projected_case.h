@@ -10,7 +10,7 @@ namespace sgs {
 // 1280 x 720 px, at the origin, looking anywhere.
 Camera turned_camera(Random& random);
 
-// What is given to a formula, exactly.
+// The inputs of a formula, exactly.
 template <class T>
 glm::vec<3, T> given(const glm::vec3& v) {
   return {T(v.x), T(v.y), T(v.z)};

@@ -11,7 +11,7 @@
 
 namespace sgs {
 
-// What is tuned back to the pictures of the usual scene, and which rates are multiplied.
+// A scene that is tuned back to the pictures of the usual one, and the rates that are multiplied.
 struct StiffCase {
   std::string scene, rates;
   std::function<void(GaussianCloud&)> make_stiff;
@@ -20,12 +20,12 @@ struct StiffCase {
 std::vector<StiffCase> stiff_cases();
 
 struct StiffRun {
-  double factor;        // of the rates
-  int steps;            // that were done
-  std::string stopped;  // what was said, with step and Gaussian; empty: it went to its end
+  double factor;        // multiplies the rates
+  int steps;            // steps done
+  std::string stopped;  // the message, with step and Gaussian; empty: it went to its end
   double first_loss, last_loss;
-  bool good;  // what is left is within the limits of scenes, is drawn in numbers and is restored
-              // from what is saved
+  bool good;  // the result is within the limits of scenes, drawn in numbers and restored from its
+              // saved state
 };
 
 // `steps` steps with these rates, times `factor`, of a scene of few Gaussians and its own pictures.

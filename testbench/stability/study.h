@@ -16,7 +16,7 @@ constexpr double kBroken = 1e-2;  // an error above it, or no number at all: it 
 // How far off a computation is and was proven to be at most, in units of its study.
 struct Deviation {
   double error = 0;  // the largest of the values; infinite where one is no finite number
-  double bound = 0;  // of that value; infinite where nothing is proven
+  double bound = 0;  // bound on that value; infinite where nothing is proven
   double share = 0;  // largest error / bound: 1 or less if the proofs are right
 
   void add(const Deviation& other);
@@ -37,8 +37,8 @@ struct Study {
   std::string formula;
   std::string form;        // the way in which units and renderers compute it
   std::string arithmetic;  // float, half
-  std::string axis;        // what the places are numbers of
-  std::string unit;        // what errors are counted in
+  std::string axis;        // quantity that the places are values of
+  std::string unit;        // unit of the errors
   std::vector<double> places;
   std::function<Deviation(double place, Random&)> sample;  // one random case at a place
   bool drawn = true;                                       // else all cases of a place are one
@@ -53,7 +53,7 @@ struct PlaceResult {
   Deviation worst;
 };
 
-// Of `samples` cases at each place; the same for each seed.
+// Runs `samples` cases at each place; the same for each seed.
 std::vector<PlaceResult> run(const Study& study, int samples, std::uint64_t seed);
 
 // The first place in the order of the study from which on it is broken; none: NaN.

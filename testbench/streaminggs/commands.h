@@ -31,7 +31,7 @@ SubCommand add_gpu_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_info_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_describe_command(CommandLine& line, const Kinds& kinds);
 
-// What adds a command, by the command's name.
+// The functions that add commands, by the command's name.
 using Commands = std::map<std::string, SubCommand (*)(CommandLine& line, const Kinds& kinds)>;
 Commands all_commands();
 

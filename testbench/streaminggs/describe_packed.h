@@ -1,4 +1,4 @@
-// What a packed scene holds, for `pack` and `info`.
+// Describes the contents of a packed scene, for `pack` and `info`.
 #pragma once
 
 #include <string>

@@ -57,7 +57,7 @@ Json in_json(const RasterWork& w) {
           {"blends", w.blends}};
 }
 
-// Of the lanes of warps that walk lists, how many blend.
+// Share of the lanes that blend, in warps that walk lists, 0 to 1.
 double used_lanes(const RasterWork& w) {
   return w.warp_entries == 0
              ? 0

@@ -36,8 +36,7 @@ void check_records(const MemoryImage& image, const std::string& scene) {
 
 bool is_ply(const std::string& path) { return std::filesystem::path(path).extension() == ".ply"; }
 
-// What the scene's file has of the stored Gaussians, by slot; of a lossy encoding what it decodes
-// to.
+// The stored Gaussians by slot, as in the scene's file; decoded where the encoding is lossy.
 GaussianCloud stored_cloud(const GaussianCloud& in_file, const StoredScene& stored) {
   return stored.original ? deactivate(stored.decoded) : reordered(in_file, *stored.file_indices);
 }

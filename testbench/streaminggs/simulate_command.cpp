@@ -38,14 +38,14 @@ struct SimulateArguments : SceneArguments {
   std::string technology = data_file("technology_32nm.json");
   RunOptions run;
   std::string timeline_groups;  // "A-B", "A", or empty
-  std::string path;             // of the camera; empty: views
+  std::string path;             // the camera's path; empty: views
   std::uint32_t frames = 60;    // along it
   double frame_rate = 90;       // at which the energy a second is told
   bool print_config = false;
   std::string command;  // the whole command line
 };
 
-// Refuses outputs that have no place, or would take that of an input, before the work begins.
+// Refuses outputs that have no place, or would take that of an input, before the run begins.
 // new_files: of the views or the path.
 void check_places(const SimulateArguments& arguments, const RunConfig& config,
                   const ResultFolder& out, const std::vector<fs::path>& new_files) {
@@ -68,7 +68,7 @@ void check_places(const SimulateArguments& arguments, const RunConfig& config,
   plan.check();
 }
 
-// Of "4-7" or "4"; of nothing all.
+// Reads "4-7" or "4"; an empty text means all groups.
 GroupRange range_of(const std::string& text) {
   GroupRange range;
   if (text.empty()) return range;
@@ -85,7 +85,7 @@ GroupRange range_of(const std::string& text) {
   return range;
 }
 
-// Of a single frame, whose camera this is.
+// Checks the range against the groups of a single frame, whose camera this is.
 void check_groups(const std::string& text, const GroupRange& range, const MachineDesign& design,
                   const Camera& camera) {
   if (text.empty() || design.piece() == PixelSize{}) return;
@@ -127,7 +127,7 @@ PathJob path_job(const SimulateArguments& arguments, std::vector<Camera>& keys) 
   return {path.name, frames_along(path, arguments.frames), arguments.frame_rate};
 }
 
-// Of what blends, the precision; of any machine how its scene is stored.
+// Prints the machine, the precision if it has one for blending, and how the scene is stored.
 void print_what_runs(RunSetting& setting) {
   const Json config = parse_json(to_json(setting.config), "the configuration");
   const std::string precision =
@@ -162,7 +162,8 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
     } else {
       adapt(config, arguments.load());
     }
-    // What was left open stays so: it follows from what else a reader of this may change.
+    // Values that were left open stay so: they follow from others, which a reader of this may
+    // change.
     RunConfig as_read = read_run_config(arguments.config.document(), kinds);
     if (packed) as_read.storage = packed->storage;
     fmt::print("{}\n", to_json(as_read));

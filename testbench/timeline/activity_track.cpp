@@ -73,7 +73,7 @@ void ActivityTrack::write() {
   const Slice& slice = *pending_;
   const Item& item = slice.item;
   const bool same_group = open_.what == item.what && open_.number == item.number;
-  // What stands open of an item goes on as long as nothing lies between.
+  // The open slices of an item go on as long as nothing lies between.
   if (slice.begin > open_until_) {
     close_items(0);
   } else if (!(open_ == item)) {

@@ -18,7 +18,8 @@ namespace sgs {
 // Says what a place is called.
 using PlaceName = std::function<std::string(const sc_core::sc_object&)>;
 
-// What it waited for shows when it has ended: slices are written then. Idle time is a gap.
+// The track of one activity. The cause of a wait is known when the wait has ended: slices are
+// written then. Idle time is a gap.
 class ActivityTrack {
  public:
   ActivityTrack(const Activity& activity, TrackEvents& events, TrackEvents::Track track,
@@ -58,7 +59,7 @@ class ActivityTrack {
   std::uint64_t until_ = 0, busy_ = 0;
   std::vector<std::uint64_t> waited_;
   Item item_, item_at_until_;
-  std::vector<std::pair<std::uint64_t, Item>> changes_;  // of the item, from until_ on
+  std::vector<std::pair<std::uint64_t, Item>> changes_;  // changes of the item, from until_ on
 
   std::optional<Slice> pending_;  // may still grow
   Item open_;                     // whose slices are open: its group's, and its visit's

@@ -11,7 +11,7 @@ namespace {
 
 // Levels change every few cycles: one is written at most once in so many.
 constexpr std::uint64_t kLevelCycles = 64;
-constexpr std::uint64_t kBusCycles = 256;  // of which the bus's rate is told
+constexpr std::uint64_t kBusCycles = 256;  // cycles over which the bus's rate is averaged
 
 }  // namespace
 

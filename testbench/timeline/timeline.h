@@ -1,4 +1,4 @@
-// What every activity of a machine did, and how full its queues were, as a trace for Perfetto.
+// A trace for Perfetto: the states of every activity of a machine, and how full its queues were.
 #pragma once
 
 #include <functional>

@@ -25,7 +25,7 @@ class TrackEvents {
   // Begins the trace. `to`, which whoever made it commits, outlives it.
   explicit TrackEvents(OutputFile& to);
 
-  // Of everything else. Children are shown in the order in which they are made.
+  // Makes a track. Children are shown in the order in which they are made.
   Track process(std::string_view name);
   Track track(Track parent, std::string_view name);
   // unit: of its values; empty for a plain count.

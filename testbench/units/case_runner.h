@@ -13,7 +13,7 @@
 
 namespace sgs::tb {
 
-// What a case is given.
+// The inputs of a case.
 struct Case {
   Checks& checks;
   OutputFile* vcd;         // null: no waveform
@@ -42,7 +42,7 @@ class CaseRunner {
   };
   int run_all(std::uint64_t seed, std::uint64_t count, const std::string& only,
               const std::string& vcd_path);
-  // Whether the case passed; adds its checks to the totals.
+  // Returns true if the case passed; adds its checks to the totals.
   bool run_one(const Named& named, std::uint64_t seed, OutputFile* vcd);
 
   const std::string program_, purpose_;

@@ -1,4 +1,4 @@
-// What a voxel sorting unit in exact order is run with, and what must come of it.
+// The inputs of a voxel sorting unit in exact order, and its expected outputs.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct ExactVsuPlan {
   bool finished_before = false;     // all groups are reported before the first visit
   std::uint64_t hfus_begin_at = 0;  // cycle before which they take nothing
   bool reads_overlap = false;       // most of their latency is hidden
-  int finished_columns = 0;         // of sub-tiles of each group, from the left, from the start on
+  int finished_columns = 0;  // sub-tile columns of each group, from the left, from the start on
 };
 
 // Chunks of at most so many Gaussians.

@@ -1,4 +1,4 @@
-// What the benches of the tile-centric machine's units have in common.
+// The parts that the benches of the tile-centric machine's units have in common.
 #pragma once
 
 #include <algorithm>
@@ -58,7 +58,7 @@ inline SceneLayout empty_layout(std::uint32_t gaussians) {
   return lay_out_file(SecondHalfFormat{}, gaussians);
 }
 
-// Of a memory with room for any job of these benches.
+// Bytes of a memory with room for any job of these benches.
 constexpr std::size_t kGscoreMemoryBytes = 24 << 20;
 
 inline BenchConfig still_gscore() {

@@ -57,7 +57,7 @@ ExpectedShare expect(const HfuPlan& plan, const VisitShare& share) {
     out.passes.push_back(near || !plan.config.coarse_filter);
     if (scene.job.layout.second_half.quantised()) out.lines.push_back(lines_of(plan, slot));
     Splat splat{};
-    // What the coarse filter would drop must not come through the fine one either.
+    // A Gaussian that the coarse filter would drop must not come through the fine one either.
     if (!near || !make_geometry(scene.job.view, g, splat) || !reaches_group(splat, pixels))
       continue;
     add_colour(scene.job.view, scene.job.layout.sh_degree(), g.mean, decoded.sh, splat);

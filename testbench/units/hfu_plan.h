@@ -1,4 +1,4 @@
-// What an HFU under test is given: shares of visits of a scene; and what must come of them.
+// The inputs of an HFU under test, shares of visits of a scene, and its expected outputs.
 #pragma once
 
 #include <cstdint>
@@ -33,10 +33,10 @@ struct HfuPlan {
   std::vector<std::uint64_t> finish_cycles;  // [group] when it is reported; empty: none is
 };
 
-// What must come of one share, slot by slot.
+// The expected outcome of one share, slot by slot.
 struct ExpectedShare {
   std::vector<bool> passes;          // coarse filter
-  std::vector<std::uint32_t> lines;  // of the codebook buffer, of each Gaussian's record
+  std::vector<std::uint32_t> lines;  // lines of the codebook buffer, for each Gaussian's record
   std::vector<Splat> splats;
 };
 

@@ -55,7 +55,7 @@ void add_feedback(UnitBench& bench, const HfuPlan& plan, FinishedGroups& finishe
   });
 }
 
-// What is done of all shares where no group finishes.
+// Operations for all shares where no group finishes.
 struct Totals {
   std::uint64_t gaussians = 0, passed = 0, lines = 0, splats = 0;
 };
@@ -73,7 +73,7 @@ Totals totals_of(const std::vector<ExpectedShare>& shares) {
   return sum;
 }
 
-// Of what has `least` cycles of work, and may wait for turns.
+// Checks an activity that is busy for `least` cycles and may wait for turns.
 void check_busy(UnitBench& bench, const char* what, std::uint64_t least, std::uint64_t turns,
                 std::uint64_t beside) {
   const std::uint64_t cycles = bench.busy_cycles(what);
@@ -126,7 +126,7 @@ void check_counters(UnitBench& bench, const HfuPlan& plan, const Totals& all, bo
   if (!quantised) return;
   bench.check_counter("records_decoded", all.passed);
   bench.check_counter("lines_read", all.lines);
-  bench.check_counter("bank_conflict_cycles", 0);  // of one reader
+  bench.check_counter("bank_conflict_cycles", 0);  // there is only one reader
   checks.equal(bench.busy_cycles("decode"), all.lines + shares, "busy cycles, decode");
 }
 
@@ -164,7 +164,7 @@ void run_hfu(Case& test, const BenchConfig& bench_config, const HfuPlan& plan) {
   const std::unique_ptr<Hfu> unit =
       bound_hfu(bench, plan, finished, input, outputs, codebooks.get());
 
-  // What the HFU does when nobody tells it that a group is finished.
+  // The expected outcome if nobody tells the HFU that a group is finished.
   std::vector<ExpectedShare> expected;
   for (const VisitShare& share : plan.shares) expected.push_back(expect(plan, share));
 

@@ -17,7 +17,7 @@ inline void place(const SceneLayout& layout, std::uint64_t spill_bytes, Streamin
                                                  job.view.width * job.view.height);
 }
 
-// Of a memory that holds all of the job's regions.
+// Bytes of a memory that holds all of the job's regions.
 inline std::size_t memory_bytes(const FrameJob& job) { return job.layout.regions.total_bytes(); }
 
 }  // namespace sgs::tb

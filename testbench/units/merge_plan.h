@@ -1,4 +1,4 @@
-// What a merge unit under test is given: the visits of some groups, and the order in which their
+// The inputs of a merge unit under test: the visits of some groups, and the order in which their
 // keys must come out.
 #pragma once
 
@@ -35,7 +35,7 @@ struct MergePlan {
   std::uint32_t sorters = 2, hfus = 4;
   std::uint32_t input_entries = 16, output_entries = 4;
   std::uint32_t feedback_cycles = 1;
-  std::uint32_t slots = 0;  // of the scene: what the spill area is sized for
+  std::uint32_t slots = 0;  // slots of the scene, for which the spill area is sized
   std::vector<MergeGroup> groups;
 };
 

@@ -50,7 +50,7 @@ void check_spill_memories(MergeRun& run, const MergePlan& plan, bool saturating)
   if (plan.config.on_overflow != OnOverflow::kSpill) return;
   const std::uint64_t out = run.bench.bytes_written() / kBytesOfKey;
   run.bench.check_accesses("spill blocks", out, out);
-  // Of a finished group some never come back.
+  // Some keys of a finished group never come back.
   if (saturating) return;
   const std::uint64_t back = run.bench.bytes_read() / kBytesOfKey;
   run.bench.check_accesses("spilled runs", back, back);

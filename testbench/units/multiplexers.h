@@ -1,4 +1,4 @@
-// What a word passes on its way from one of several memories.
+// The multiplexers that a word passes on its way from one of several memories.
 #pragma once
 
 #include <cstdint>

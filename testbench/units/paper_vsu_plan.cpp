@@ -13,7 +13,7 @@
 namespace sgs::tb {
 namespace {
 
-// What the rays of a group do, from the grid itself.
+// Counts the events of a group's rays, from the grid itself.
 template <class Path>
 void count_events(const PaperVsuPlan& plan, const PixelRect& group, Path path,
                   ExpectedVisits& out) {

@@ -1,4 +1,4 @@
-// What a voxel sorting unit in paper order is run with, and what must come of it.
+// The inputs of a voxel sorting unit in paper order, and its expected outputs.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct PaperVsuPlan {
 // A table that holds every group, voxels whole.
 PaperVsuPlan paper_vsu_plan_of(TestScene scene);
 
-constexpr std::uint64_t kLineBytes = 32;  // of VSU's caches
+constexpr std::uint64_t kLineBytes = 32;  // line of VSU's caches
 
 inline std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; }
 
@@ -43,8 +43,8 @@ struct ExpectedVisits {
   std::uint64_t passes = 0, overflows = 0;
   std::vector<std::uint64_t> rays_of;  // [group]
   std::uint64_t voxels = 0;            // whole
-  std::uint64_t orderings = 0;         // of a table that had been filled
-  OrderingAccesses table;              // of passes without an overflow
+  std::uint64_t orderings = 0;         // orderings of a table that had been filled
+  OrderingAccesses table;              // accesses of passes without an overflow
 };
 
 // From the grid itself.

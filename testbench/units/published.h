@@ -1,4 +1,4 @@
-// What units say of themselves, for the checks at the end of a case.
+// The values that units publish, for the checks at the end of a case.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,7 @@ struct SceneShape {
   std::size_t gaussians = 200;
   int sh_degree = 1;
   SecondHalfEncoding encoding = SecondHalfEncoding::kRaw;
-  StorageOrder order = StorageOrder::kVoxels;  // of the image; there is a grid all the same
+  StorageOrder order = StorageOrder::kVoxels;  // order of the image; there is a grid all the same
   float extent = 4;  // world units, half the side of the cube that holds the centres
   float voxel_size = 1;
   int width_px = 48, height_px = 40;
@@ -24,7 +24,7 @@ struct SceneShape {
 };
 
 struct TestScene {
-  ActivatedCloud cloud;  // what the image's records decode to, by slot
+  ActivatedCloud cloud;  // the decoded records of the image, by slot
   VoxelGrid grid;
   MemoryImage image;
   StreamingJob job;

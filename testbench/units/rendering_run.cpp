@@ -18,15 +18,15 @@ namespace {
 
 std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; }
 
-// Of draining a row of pixels: a bank gives one sub-tile a cycle, and what is converted is limited.
+// Least cycles to drain a row of pixels: a bank gives one sub-tile a cycle, and the pixels that are
+// converted are limited.
 std::uint64_t row_cycles(const RenderingPlan& plan, std::uint64_t width) {
   return std::max(ceil_div(width, plan.config.drain_pixels_per_cycle),
                   ceil_div(ceil_div(width, 4), plan.config.clusters));
 }
 
-// Of draining: of each place among the pixels that are converted at once, how many memories it
-// meets over a group, at most. A memory is one of 16 pixels of a sub-tile, in a cluster and a
-// buffer.
+// Draining converts several pixels at once. Each place among them meets at most this many memories
+// over a group. A memory holds one of 16 pixels of a sub-tile, in a cluster and a buffer.
 std::uint64_t memories_of_a_place(const RenderingPlan& plan) {
   std::vector<std::set<std::uint64_t>> met(plan.config.drain_pixels_per_cycle);
   for (int y = 0; y < plan.group.height; ++y) {
@@ -41,8 +41,8 @@ std::uint64_t memories_of_a_place(const RenderingPlan& plan) {
   return most * plan.config.pixel_buffers;
 }
 
-// What must come out: pixels and counts from the algorithm layer. What is finished drops splats,
-// and when it is known hangs on times: of splats and their rows there are these at most.
+// The expected output: pixels and counts from the algorithm layer. Finished groups drop splats, and
+// when that is known depends on timing: the counts of splats and their rows are upper limits.
 struct Expected {
   std::vector<std::byte> frame;
   std::uint64_t groups = 0, groups_saturated = 0;
@@ -105,9 +105,9 @@ struct Feedback : sc_core::sc_module, FinishGroupIf {
   std::vector<std::uint32_t> times;  // [group]
 };
 
-// What comes through each FIFO. By visit: visits in turn, each with its end; behind a group's
-// visits its end takes a turn of its own. By token: each in turn, here with a rejected key behind a
-// visit's splats.
+// The tokens of each FIFO. By visit: visits in turn, each with its end; behind a group's visits its
+// end takes a turn of its own. By token: each in turn, here with a rejected key behind a visit's
+// splats.
 std::vector<std::vector<SplatToken>> tokens_of(const RenderingPlan& plan) {
   std::vector<std::vector<SplatToken>> tokens(plan.inputs);
   const bool by_token = plan.arrival == Arrival::kByToken;

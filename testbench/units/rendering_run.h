@@ -10,7 +10,7 @@
 
 namespace sgs::tb {
 
-// What a run is of: a configuration, a frame and the splats of each visit.
+// The inputs of a run: a configuration, a frame and the splats of each visit.
 struct RenderingPlan {
   RenderingConfig config;
   StreamingJob job;

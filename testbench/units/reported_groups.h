@@ -37,9 +37,10 @@ class ReportedGroups {
   std::vector<std::uint64_t> seen_from_;  // [group]
 };
 
-// Of a unit that hands out visits: behind each it goes on with the group or, from the cycle on in
-// which it sees that the group is finished, leaves the rest out. cycles: in which the visits came
-// out of a FIFO with a latency of one cycle and without stalls; all: how many there would be.
+// Checks a unit that hands out visits. After each visit it goes on with the group. From the cycle
+// on in which it sees that the group is finished, it leaves the rest out. cycles: in which the
+// visits came out of a FIFO with a latency of one cycle and without stalls; all: how many there
+// would be.
 inline void check_feedback(Checks& checks, const ReportedGroups& groups, std::uint32_t group,
                            const std::vector<std::uint64_t>& cycles, std::size_t all) {
   for (std::size_t k = 1; k < cycles.size(); ++k) {

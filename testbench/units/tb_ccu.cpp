@@ -26,10 +26,10 @@ bool may_touch(const TestScene& scene, const GscoreJob& job, std::size_t i) {
   return may_touch_frame(job.view, frame_sides(job.view), first.mean, first.extents.scale_max);
 }
 
-// What passes the culling of all units, counted beside it.
+// Gaussians that pass the culling of all units, counted beside it.
 struct Candidates {
   std::uint64_t there = 0, ends_alone = 0;
-  std::uint64_t reads = 0;  // of second halves
+  std::uint64_t reads = 0;  // second halves
 };
 
 // Neighbours in memory are read at once if they are of a slice and neighbours in the ring of slots.
@@ -57,7 +57,7 @@ Candidates candidates_of(const TestScene& scene, const GscoreJob& job, const Pla
   return out;
 }
 
-// What must come out of one slice.
+// The expected output for one slice.
 std::vector<Converted> expected_of(const TestScene& scene, const GscoreJob& job,
                                    const GscoreConfig& config, std::size_t first, std::size_t end) {
   std::vector<Converted> out;

@@ -62,7 +62,7 @@ std::vector<std::uint32_t> lines_of(const Plan& plan, const CodebookIndices& ind
   return lines;
 }
 
-// Of all of the record's entries, codebook after codebook.
+// The lines of all of the record's entries, codebook after codebook.
 std::vector<std::uint32_t> lines_of(const Plan& plan, const CodebookIndices& indices) {
   std::vector<std::uint32_t> lines;
   for (std::size_t id = 0; id < kCodebookCount; ++id) {
@@ -218,7 +218,7 @@ void load(Case& test, const SecondHalfFormat& format, const BenchConfig& memory)
   bench.run();
   checks.equal(asked, !plan.codebooks.empty(), "the reader asked");
   bench.check_counter("bytes_loaded", plan.codebooks.size());
-  std::uint64_t words = 0;  // of each codebook, whole lines
+  std::uint64_t words = 0;  // whole lines of all codebooks
   for (const SramUse& use : CodebookBuffer::sram_uses(plan.config, plan.job.layout.second_half)) {
     words += bench.accesses(use.name).second;
   }

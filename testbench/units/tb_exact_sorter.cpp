@@ -15,7 +15,7 @@ struct Plan {
   SortingNetworkConfig config;
   std::uint32_t hfus = 3, first_visit = 0, visit_step = 2;
   std::uint32_t input_entries = 16, output_entries = 16;
-  std::vector<std::vector<FineCandidate>> visits;  // of this unit, each with its mark at the end
+  std::vector<std::vector<FineCandidate>> visits;  // this unit's, each with its mark at the end
 };
 
 std::uint32_t number_of(const Plan& plan, std::size_t k) {

@@ -179,7 +179,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const ExactVsuPlan& p
         finished.finish(received.back().group);
       }
     }
-    // What the last group put aside may still be on its way.
+    // Entries that the last group put aside may still be on their way.
     constexpr std::uint64_t kLongerThanMemoryTakes = 10'000;
     bench.clock().wait_cycles(kLongerThanMemoryTakes);
   });
@@ -208,8 +208,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, const ExactVsuPlan& p
   bench.check_counter("visits", visits_seen);
   if (plan.finished_before) bench.checks().equal(visits_seen, std::uint64_t{0}, "visits");
   check_counters(bench, plan, expected, any_finished || plan.finished_columns > 0);
-  // Of a group that is walked ahead nodes are not looked up: of more than one group they may be
-  // opened, and what is below them is hidden.
+  // Nodes of a group that is walked ahead are not looked up. With more than one group they may be
+  // opened, and the nodes below them are hidden.
   if (plan.finished_columns == 0 || plan.job.groups.size() == 1) {
     bench.checks().that(
         (plan.finished_columns > 0) == (expected.nodes_hidden != expected.chunks_hidden),

@@ -179,7 +179,7 @@ void shared_fetch(Case& test, SecondHalfEncoding encoding, std::uint32_t slots) 
   bench.check_counter("fine_tests", taken);
 }
 
-// Of all orders of magnitude.
+// Cycles of all orders of magnitude.
 std::vector<std::uint64_t> random_cycles(std::mt19937_64& random, std::size_t count) {
   std::vector<std::uint64_t> cycles;
   for (std::size_t k = 0; k < count; ++k) {

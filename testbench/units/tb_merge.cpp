@@ -58,7 +58,7 @@ void exact_time(Case& test, std::uint32_t n, std::uint32_t cycles_per_operation)
   run.bench.run();
 }
 
-// What is final comes out although nothing more goes in; what ties with the bound does not.
+// Final keys come out although nothing more goes in; keys that tie with the bound do not.
 void final_keys_do_not_wait(Case& test) {
   MergePlan plan;
   plan.slots = 4;
@@ -245,7 +245,7 @@ int sc_main(int argc, char* argv[]) {
     run.bench.check_counter("runs_spilled", 1);
     test.checks.equal(run.bench.bytes_written(), std::uint64_t{8 * kBytesOfKey}, "bytes written");
     test.checks.equal(run.bench.bytes_read(), std::uint64_t{8 * kBytesOfKey}, "bytes read");
-    // Of each key that comes back, the fronts of all runs are looked at.
+    // For each key that comes back, the fronts of all runs are looked at.
     run.bench.check_accesses("fronts of runs", plan.config.spill_runs * 8, 8);
     for (const char* use : {"rest of fronts", "spilled runs", "spill blocks"}) {
       run.bench.check_accesses(use, 8, 8);

@@ -30,8 +30,8 @@ struct Plan {
   std::vector<Visit> visits;  // those of this unit
 };
 
-// What is done for one list, counted from the description of the unit: runs of a buffer each,
-// merged fan_in at a time.
+// Operations for one list, counted from the description of the unit: runs of a buffer each, merged
+// fan_in at a time.
 struct Work {
   std::uint64_t busy_cycles = 0, entries_spilled = 0, runs = 0;
   std::uint64_t compare_exchanges = 0, moves = 0;
@@ -93,7 +93,7 @@ void check_network(UnitBench& bench, const Plan& plan, const Work& work, std::ui
   bench.check_accesses(kComparedKeys, held + work.moves, held);
   bench.check_accesses(kSortedPlaces, held + work.moves, work.moves);
   if (plan.config.buffer_entries <= kNetworkWidth) return;  // whole blocks only
-  constexpr std::uint64_t kHalvings = 4;                    // of 16 banks
+  constexpr std::uint64_t kHalvings = 4;                    // halvings of 16 banks
   bench.check_operations("sorting", "select_bit",
                          kHalvings * exchanged_bits(plan.config.buffer_entries) * work.moves);
 }
@@ -203,8 +203,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   checks.equal(bench.busy_cycles("sorting"), work.busy_cycles, "busy cycles");
   bench.check_counter("entries_spilled", work.entries_spilled);
   bench.check_counter("runs_spilled", work.runs);
-  // What is spilled passes a block on its way out. It came into the buffer and left it before, and
-  // does so again when it is read back.
+  // Spilled entries pass a block on their way out. They came into the buffer and left it before,
+  // and do so again when they are read back.
   const std::uint64_t held = outcome.received + work.entries_spilled;
   bench.check_accesses("spill blocks", work.entries_spilled, work.entries_spilled);
   bench.check_accesses("sort buffers", held, held);

@@ -16,7 +16,7 @@ namespace {
 // All shares of one visit or of one end-of-group mark, put together.
 struct Received {
   std::vector<VisitShare> shares;  // [HFU]
-  std::uint64_t cycle = 0;         // of the last
+  std::uint64_t cycle = 0;         // in which the last share came
 };
 
 void check_visit(Checks& checks, const PaperVsuPlan& plan, std::uint32_t number,

@@ -62,7 +62,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> tiles_of(const Converted& g
   return out;
 }
 
-// What the tests of a pass are asked, by boxes; counted beside the unit.
+// Tests of a pass, by boxes; counted beside the unit.
 struct Tests {
   std::uint64_t steps = 0, tiles = 0, touched = 0, off_pass = 0, records = 0;
 };
@@ -261,7 +261,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
     });
   }
 
-  // Of the pass: records in the order of the scene, each list in the order of its records.
+  // Checks the pass: records are in the order of the scene, each list in the order of its records.
   std::vector<bool> seen(job.tile_count);
   std::uint64_t longest = 0, empty = 0;
   const auto check_tile = [&](const TileJob& tile) {

@@ -40,7 +40,7 @@ std::uint64_t sort_cycles(const Plan& plan) {
   return cycles;
 }
 
-// What lists take that nobody finishes, counted beside the unit.
+// Operations for lists that nobody finishes, counted beside the unit.
 struct Work {
   std::uint64_t lists_split = 0, entries_split = 0, loaded = 0, in_order = 0;
   std::uint64_t splits = 0, split_entries = 0;
@@ -122,7 +122,7 @@ void load(const GscoreConfig& config, const std::vector<TileEntry>& list, bool s
     work.bytes_read += blocks.used_bytes(entries);
     work.bursts += cycles_for(blocks.used_bytes(entries), kPortBytes);
   }
-  // What has one key is in order, however long; of a tile's list that is not known ahead.
+  // Entries with one key are in order, however many; for a tile's list that is not known ahead.
   const std::size_t most = config.sorting.list_entries;
   if (list.size() <= most || (subset && one_key(list))) {
     for (std::size_t at = 0; at < list.size(); at += most) {

@@ -34,7 +34,8 @@ struct BenchConfig {
   // that it does wait for.
   std::uint32_t latency_cycles = 20, write_latency_cycles = 150;
   std::size_t memory_bytes = 0;
-  // Of the units; none: without a path and, before a memory of fixed latency, without limits.
+  // Limits and path of the units' ports. none: without a path and, before a memory of fixed
+  // latency, without limits.
   std::optional<MemoryPortConfig> port;
   double stall_probability = 0;  // at both sides of every FIFO made here
   std::uint32_t longest_stall_cycles = 20;
@@ -103,7 +104,7 @@ class UnitBench {
   // not happened yet.
   void wait_until_just_before(std::uint64_t cycle) const;
 
-  // Of the units' activities, ports and queues.
+  // Counts of the units' activities, ports and queues.
   std::uint64_t busy_cycles(const std::string& resource) const {
     return published_.busy_cycles(resource);
   }

@@ -14,7 +14,7 @@ struct DatasetArguments {
   double downscale = 1;
 
   void add_downscale_to(CommandLine& line);
-  // What a checkpoint must have been made with.
+  // The data set in words: a checkpoint must have been made with the same.
   std::string work() const;
   // Reads it and checks that `plan`, to which its files are added as inputs, writes over none of
   // them. Throws InputError, also where there is no view to test with.

@@ -1,4 +1,4 @@
-// What a data set of photographs holds, for `info`.
+// Describes the contents of a data set of photographs, for `info`.
 #pragma once
 
 #include "algorithm/dataset/dataset.h"

@@ -12,7 +12,8 @@
 
 namespace sgs {
 
-// What test views say of the scene of the moment; of each further column of the log a number.
+// Quality of the current scene in the test views; `more` has a number for each further column of
+// the log.
 struct Look {
   Quality test;
   std::vector<double> more;
@@ -21,12 +22,12 @@ struct Look {
 // A column of the log beside those that every fitting has.
 struct LogColumn {
   const char* csv;
-  const char* heading;  // of the table, up to 10 letters
+  const char* heading;  // in the table, up to 10 letters
 };
 
 class FittingLog {
  public:
-  // What earlier runs wrote and how long they took.
+  // The log and the duration, in seconds, of earlier runs.
   struct Earlier {
     std::string csv;
     double seconds = 0;
@@ -51,9 +52,9 @@ class FittingLog {
   const int steps_;
   const bool terminal_;
   std::string csv_;
-  const double before_s_;  // that earlier runs took
+  const double before_s_;  // duration of earlier runs
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-  int first_step_ = -1;                  // of this run
+  int first_step_ = -1;                  // this run's first
   std::optional<double> first_psnr_db_;  // before the first step, where this run saw it
   std::optional<double> test_psnr_db_;   // at the last look
 };

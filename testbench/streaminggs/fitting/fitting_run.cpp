@@ -83,7 +83,7 @@ class FittingRun {
     return fmt::format("the last good state is in {}", arguments_.checkpoint());
   }
 
-  // What may be done about steps that lead nowhere.
+  // Advice about steps that lead nowhere.
   const char* slower() const {
     return task_.pace.empty() ? "" : "; to go on: --resume it with a smaller --rate";
   }

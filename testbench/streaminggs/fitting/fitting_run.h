@@ -18,7 +18,7 @@
 
 namespace sgs {
 
-// What all commands that fit a scene have in common.
+// The arguments that all commands that fit a scene have in common.
 struct FittingArguments {
   std::string out, log, resume;
   std::uint32_t test_every = 1'000, checkpoint_every = 0;
@@ -44,7 +44,7 @@ struct FittingArguments {
 struct FittingTask {
   std::string work, pace, contents;  // as in Checkpoint
   Fitting& fitting;
-  std::vector<LogColumn> more;  // that look() fills in
+  std::vector<LogColumn> more;  // columns that look() fills in
   std::function<Look()> look;
   std::function<void()> write;  // the scene, to its place
 };

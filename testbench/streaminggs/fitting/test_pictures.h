@@ -14,7 +14,7 @@ namespace sgs {
 
 struct TestPictures {
   std::string folder;            // empty: none
-  std::vector<int> views = {0};  // of the test views
+  std::vector<int> views = {0};  // numbers of test views
 
   void add_to(CommandLine& line);
   void add_to(OutputPlan& plan) const;

@@ -28,7 +28,7 @@ struct TrainArguments : FittingArguments {
   std::uint64_t seed = 1;
   std::uint32_t sh_degree = 3;
 
-  // What a checkpoint must have been made with.
+  // The training in words: a checkpoint must have been made with the same.
   std::string training() const {
     return fmt::format(
         "train {} --steps {} --gaussians {} --seed {} --sh-degree {} --growth {} "

@@ -1,4 +1,4 @@
-// What the tunings of a scene can be told.
+// The arguments of the tunings of a scene.
 #pragma once
 
 #include <cstddef>
@@ -37,10 +37,11 @@ struct TuneArguments : SceneArguments, FittingArguments {
   const char* purpose() const {
     return boundary ? "boundary" : quantise ? "quantise" : "streaming";
   }
-  // What a checkpoint must have been made with, and what may be another from there on.
+  // work(): the tuning in words, which a checkpoint must have been made with. pace(): the values
+  // that may differ from there on.
   std::string work() const;
   std::string pace(const TuningConfig& config) const;
-  // What all tunings take of it; steps, rate: where the user says none.
+  // Sets the values that all tunings share. steps, rate: used where the user says none.
   void set(TuningConfig& config, int own_steps, double own_rate) const;
 };
 

@@ -1,4 +1,4 @@
-// What the tunings of a scene have in common: what they begin with.
+// The inputs that all tunings of a scene begin with.
 #pragma once
 
 #include <cstddef>

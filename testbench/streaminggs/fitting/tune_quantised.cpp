@@ -62,7 +62,7 @@ QuantisedTuner begun(const TuneArguments& arguments, const TuningJob& job,
           given,  std::move(quantised)};
 }
 
-// Of a scene as the machine has it, shown as the machine shows it.
+// Quality of a scene as the machine stores it, shown in the machine's order.
 class Judge {
  public:
   Judge(const TuningJob& job, const std::optional<PaperOrderConfig>& order)

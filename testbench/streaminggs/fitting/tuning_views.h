@@ -1,4 +1,5 @@
-// What a tuning compares with: photographs of a data set, or the scene's own reference pictures.
+// The pictures that a tuning compares with: photographs of a data set, or the scene's own reference
+// pictures.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +16,13 @@
 namespace sgs {
 
 struct TuningViews {
-  std::unique_ptr<const Dataset> dataset;  // that the photographs are read from
-  std::vector<Camera> cameras;             // of the views that are tuned on
+  std::unique_ptr<const Dataset> dataset;  // the photographs are read from it
+  std::vector<Camera> cameras;             // one for each view that is tuned on
   Photographs tune, test;                  // loaded
   std::string says;                        // a line for the terminal
 };
 
-// Of a data set with views to test with.
+// The views of a data set that has views to test with.
 TuningViews views_of_dataset(Dataset dataset);
 
 // The pictures that `cloud` gives from `cameras` in the reference order: of every eighth, from the
@@ -32,7 +33,7 @@ TuningViews views_of_scene(const std::string& pictures, const ActivatedCloud& cl
                            const std::vector<Camera>& cameras, std::uint32_t between,
                            std::uint64_t seed);
 
-// Of the pictures that are tuned on.
+// Sizes of the pictures that are tuned on, in px.
 std::vector<PixelSize> frame_sizes(const TuningViews& views);
 
 }  // namespace sgs

@@ -79,7 +79,8 @@ std::string text_of(const Cause& cause) {
 // Twice as much of it can save half the share in which it works; no more waiting, the rest.
 constexpr double kMostly = 2.0 / 3;
 
-// Of the frame without what others do before and after it.
+// Share of the frame in which the activity is busy, without the time that others take before and
+// after it.
 double share_of_phase(const ActivityResult& activity, const FrameResult& frame) {
   const auto own = static_cast<double>(frame.cycles - activity.waited_for(WaitFor::kPhase));
   return static_cast<double>(activity.busy_cycles) / std::max(1.0, own);
@@ -92,7 +93,8 @@ std::string works_text(const ActivityResult& activity, const FrameResult& frame)
   return text + fmt::format(", {:.0f} % of its phase", 100 * share_of_phase(activity, frame));
 }
 
-// Of those whose phase takes half of the frame or more, if there is one: it has the most to give.
+// The busiest activity among those whose phase takes half of the frame or more, if there is one: it
+// has the most to give.
 Activities::const_iterator busiest_of(const Activities& activities, const FrameResult& frame) {
   const auto rank = [&](const ActivityResult& activity) {
     const bool longest = 2 * activity.waited_for(WaitFor::kPhase) <= frame.cycles;

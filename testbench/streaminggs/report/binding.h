@@ -19,12 +19,12 @@ struct ResourceUse {
 // buses.
 std::vector<ResourceUse> resource_uses(const FrameResult& frame);
 
-// What the waiting of an activity leads to, from one end of a FIFO to the other: an activity that
-// works, or a place at which the last one waits.
+// The cause of an activity's waiting, found from one end of a FIFO to the other: a busy activity,
+// or a place at which the last one waits.
 struct Cause {
   std::vector<std::string> path;  // activities, from the one that waits
   std::string holds;              // an activity, a FIFO, a port or a unit
-  std::string why;                // "works 62 % of the frame", "answers to its reads": of the last
+  std::string why;  // the last one's "works 62 % of the frame", "answers to its reads"
   Remedy remedy;
 };
 
@@ -38,7 +38,7 @@ struct Binding {
   std::string unit, next;  // the busiest resource, and the one after it
   double utilisation = 0, next_utilisation = 0;
   std::string holds;  // the resource, or where nothing is busy the cause
-  Remedy remedy;      // of that; where none is known, of the resource
+  Remedy remedy;      // for `holds`; where none is known, for the resource
   std::string explanation, advice;
 
   // With the numbers, and what to change.

@@ -13,11 +13,11 @@ namespace sgs {
 // XXH64 with seed 0, as `xxhsum` prints it: tells whether two runs were fed the same bytes.
 std::uint64_t xxh64(const void* bytes, std::size_t count);
 std::uint64_t xxh64(const std::vector<std::byte>& bytes);
-// Of a text's.
+// Hash of a text.
 std::uint64_t xxh64_of_text(const std::string& text);
-// Of a file's; of none where it cannot be read.
+// Hash of a file; where it cannot be read, that of no bytes.
 std::uint64_t xxh64_of_file(const std::string& path);
-// Of those among these that are files, in this order, as a text.
+// Digest of those among these paths that are files, in this order, as a text.
 std::string digest_of_files(const std::vector<std::string>& paths);
 
 // All that a picture depends on of a camera, and its name, as a text.

@@ -50,7 +50,7 @@ std::string fact_of(const ReportedView& view, const std::string& kind) {
   return "";
 }
 
-// What is the same sentence for all views is said once.
+// Adds the facts that differ. A sentence that holds for all views is said once.
 void compare_facts(ReportDiff& diff) {
   std::map<std::string, std::string> sentences;  // with the views that they are of
   std::vector<std::string> order;

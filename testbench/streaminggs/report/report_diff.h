@@ -1,4 +1,4 @@
-// What differs between two runs of `simulate`, and how much of the whole that is.
+// Differences between two runs of `simulate`, each with its share of the whole.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ struct ConfigChange {
   std::string key, a, b;
 };
 
-// Of a part that stands several times: busy and waited cycles are the mean of its copies, all else
-// their sum.
+// The change of one part. Where it has several copies, busy and waited cycles are the mean of its
+// copies, all else their sum.
 struct PartChange {
   std::string name;
   double a = 0, b = 0;
@@ -28,19 +28,19 @@ struct PartChange {
 struct QuantityChange {
   Quantity quantity = Quantity::kBusy;
   double a = 0, b = 0;
-  std::vector<PartChange> parts;  // what changes the whole most comes first
+  std::vector<PartChange> parts;  // largest change of the whole first
   std::size_t equal = 0;          // parts that are alike in both
 
-  double ratio() const { return a > 0 ? b / a - 1 : 0; }  // of the whole, as a share of A's
+  double ratio() const { return a > 0 ? b / a - 1 : 0; }  // change of the whole, as a share of A's
 };
 
 struct ReportDiff {
-  std::vector<std::string> unlike;  // what makes them runs of something else, a sentence each
-  std::vector<std::pair<const ReportedView*, const ReportedView*>> views;  // that both have
+  std::vector<std::string> unlike;  // facts that make them runs of something else, a sentence each
+  std::vector<std::pair<const ReportedView*, const ReportedView*>> views;  // in both
   std::vector<ConfigChange> config;
-  std::vector<std::string> keys_of_a, keys_of_b;  // that only one of them has: of other machines
+  std::vector<std::string> keys_of_a, keys_of_b;  // keys that only one has: of other machines
   std::size_t equal_keys = 0;
-  std::vector<QuantityChange> quantities;  // what changes most comes first
+  std::vector<QuantityChange> quantities;  // largest change first
 };
 
 // Both outlive it. Throws InputError where they have no view in common.

@@ -12,8 +12,8 @@
 
 namespace sgs {
 
-// Of what stands several times under one name but for numbers ("hfu0.fine", "hfu1.fine"), the
-// copies are one part: "hfuN.fine".
+// A part of the report. Copies that differ only in numbers ("hfu0.fine", "hfu1.fine") are one part:
+// "hfuN.fine".
 struct ReportedPart {
   double sum = 0;  // over its copies
   double copies = 0;
@@ -24,13 +24,13 @@ struct ReportedQuantity {
   std::map<std::string, ReportedPart> parts;
 };
 
-// Of kBusy the whole is the frame; of kWaits the mean of the activities, without idle.
+// The whole of kBusy is the frame; that of kWaits is the mean of the activities, without idle.
 enum class Quantity { kBusy, kWaits, kBytes, kJoules, kArea };
 constexpr std::size_t kQuantities = 5;
 
 struct ReportedView {
   int view = 0;
-  // What it is of, beside the configuration: words for a kind of fact, and the fact.
+  // Facts about the run beside the configuration: words for a kind of fact, and the fact.
   std::vector<std::pair<std::string, std::string>> facts;
   double cycles = 0;
   std::string psnr_db;  // "equal" where nothing differs from the reference picture
@@ -42,7 +42,7 @@ struct ReportedView {
 };
 
 struct ReportedRun {
-  std::string path;                           // of the report
+  std::string path;                           // the report's file
   std::map<std::string, std::string> config;  // every key with its path, and its value as JSON
   std::set<std::string> chosen;               // those of them that the model chose
   std::vector<ReportedView> views;            // by number

@@ -30,7 +30,7 @@ class ResultFolder {
   Path report() const { return path_ / "report.json"; }
   Path view(int number) const { return path_ / fmt::format("view_{}", number); }
 
-  // Of a camera path.
+  // Files of a camera path.
   Path frame(std::size_t number) const { return frames() / fmt::format("{:04}.png", number); }
   Path path_report() const { return path_ / "path.json"; }
   Path path_table() const { return path_ / "path.csv"; }
@@ -60,7 +60,7 @@ class ResultFolder {
   }
 
   // Removes the report and what is there of any view or path but `kept`: they tell of another run.
-  // What is not of `simulate` stays, and so does a folder that holds it.
+  // Files that `simulate` did not write stay, and so does a folder that holds one.
   void keep_only(const std::vector<Path>& kept) const {
     std::error_code ignored;
     std::filesystem::remove(report(), ignored);

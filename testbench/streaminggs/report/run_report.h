@@ -16,9 +16,9 @@ namespace sgs {
 
 struct RunFacts {
   std::string technology, technology_path;
-  std::uint64_t technology_hash = 0;  // of the file
-  std::uint64_t seed = 0;             // of the random stalls
-  std::string configuration;          // what it is called, with how many values are set over it
+  std::uint64_t technology_hash = 0;  // the file's
+  std::uint64_t seed = 0;             // seeds the random stalls
+  std::string configuration;          // its name, with how many values are set over it
   std::string command;                // the whole command line
   std::chrono::steady_clock::time_point began;
 };
@@ -34,7 +34,7 @@ class RunReport {
   // One of a view that was finished.
   void add(const nlohmann::ordered_json& view);
 
-  // Of all views. failed: those that were not finished, and why.
+  // The report of all views. failed: those that were not finished, and why.
   std::string text(const std::vector<std::pair<int, std::string>>& failed) const;
 
  private:

@@ -15,7 +15,7 @@ std::string percent(double share) {
   return std::isnan(share) ? "none" : fmt::format("{:.1f} %", 100 * share);
 }
 
-// Of what the machine does, and of what is stored.
+// Prints the parts of the squared error that the machine and the storage cause.
 void print_order_loss(const OrderLoss& loss, const GoldenFrame& golden) {
   fmt::print("  squared error: ");
   if (golden.missed > 0) fmt::print("missed splats {}, ", percent(loss.missed.share));

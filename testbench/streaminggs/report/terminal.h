@@ -1,4 +1,5 @@
-// What `simulate` prints: a table with a line a view, and below it what explains the lines.
+// The printed output of `simulate`: a table with a line a view, and below it explanations of the
+// lines.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,8 @@ void print_table_line(const ViewResult& view);
 // Binding unit, bytes by region that are not 0, costs of tests.
 void print_details(const ViewResult& view);
 
-// What was loaded: Gaussians dropped, where storage comes from. dropping: it was asked for.
+// Prints the facts of loading: Gaussians dropped, where storage comes from. dropping: it was asked
+// for.
 void print_scene(const PreparedScene& scene, const RunConfig& config, bool dropping);
 
 // Area, and what was left to the model; the same for all views. technology: its name.

@@ -10,7 +10,7 @@
 namespace sgs {
 
 struct CameraPath {
-  std::string name;  // what it is called in messages: its file, or of which scene it is
+  std::string name;  // name in messages: its file, or the scene that it belongs to
   std::vector<Camera> keys;
   bool closed = false;  // from the last key back to the first
 };
@@ -21,7 +21,7 @@ struct CameraPath {
 // fewer than two cameras; for `builtin:path` with a scene that is none.
 CameraPath read_camera_path(const std::string& path, const std::string& scene);
 
-// Whether `path` is the name of a file.
+// True if `path` is the name of a file.
 bool is_path_file(const std::string& path);
 
 // `count` cameras, at least 1, from the first key to the last, as many between two keys as between

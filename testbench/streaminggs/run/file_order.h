@@ -1,5 +1,5 @@
-// What it costs a picture that ties of depth are broken by storage slot and not, as renderers of
-// the scene's file do, by place in the file.
+// The error of a picture because ties of depth are broken by storage slot. Renderers of the scene's
+// file break them by place in the file.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace sgs {
 
-// Of the reference picture in storage order against that in the order of the file.
+// The reference picture in storage order against the one in the order of the file.
 struct FileOrderDifference {
   double psnr_db;  // infinite where they are equal
   double max_abs_error = 0;
-  std::uint64_t pixels = 0;  // that differ, in any bit of a channel's value
+  std::uint64_t pixels = 0;  // pixels that differ in any bit of a channel's value
 };
 
 // reference: of scene.given(). The other picture is made only of tiles where some tie is broken

@@ -15,7 +15,7 @@ namespace sgs {
 struct RunOptions {
   std::string vcd_path;         // empty: no waveform
   std::string timeline_path;    // empty: none
-  GroupRange timeline_groups;   // that it is bound to
+  GroupRange timeline_groups;   // groups that the timeline is limited to
   std::string dram_trace_path;  // empty: no trace of the DRAM commands
   BuildOptions build;
 };

@@ -1,5 +1,5 @@
-// What a machine's order and arithmetic cost a picture, divided between splats that it missed,
-// blends in the wrong order, and what it computes otherwise than the reference.
+// The error of a picture because of a machine's order and arithmetic. It is divided among missed
+// splats, blends in the wrong order, and computations that differ from the reference.
 #pragma once
 
 #include <optional>
@@ -29,9 +29,9 @@ inline bool is_lossy(const GoldenFrame& golden) {
   return loses_order(golden) || golden.computed_exactly;
 }
 
-// Of a lossy frame. reference, decoded_reference: of the scene as given, null where it is not known
-// (then the error counts from the latter), and as encoded. frame: `golden` in the frame buffer's
-// format.
+// Computes the loss of a lossy frame. reference: the picture of the scene as given, null where it
+// is not known; then the error counts from decoded_reference. decoded_reference: that of the scene
+// as encoded. frame: `golden` in the frame buffer's format.
 OrderLoss order_loss(const Image* reference, const Image& decoded_reference,
                      const GoldenFrame& golden, const Image& frame);
 

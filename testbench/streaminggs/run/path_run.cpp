@@ -39,7 +39,7 @@ std::optional<RunConfig> with_codebooks(RunConfig& config, const SecondHalfForma
   return later;
 }
 
-// What goes on while the machine waits for its next frame.
+// Power of the machine while it waits for its next frame, in watts.
 double idle_w(const ViewResult& view) {
   double joules = 0;
   for (const auto& [component, energy] : view.energy_j.by_component) {
@@ -147,7 +147,7 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
       view = simulate_view(scene, static_cast<int>(i), job.frames[i], machine, setting.technology,
                            setting.options);
     } catch (const InputError&) {
-      throw;  // of the configuration, not of the frame
+      throw;  // the configuration is at fault, not the frame
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(fmt::format("frame {} of {}: {}", i, job.name, error.what()));
     }

@@ -13,7 +13,7 @@
 namespace sgs {
 
 struct PathJob {
-  std::string name;            // of the path
+  std::string name;            // the path's name
   std::vector<Camera> frames;  // at least one
   double frame_rate = 0;       // at which energy a second is told
 };
@@ -21,9 +21,9 @@ struct PathJob {
 // Every file that run_path() writes.
 std::vector<std::filesystem::path> files_of_path(const PathJob& job, const ResultFolder& out);
 
-// What the folder holds of an earlier run is removed once the first frame is done. Returns the exit
-// status: 1 where a frame is not the golden renderer's. Throws std::runtime_error, which names the
-// frame, when one cannot be finished.
+// Simulates the frames of a path. Files of an earlier run in the folder are removed once the first
+// frame is done. Returns the exit status: 1 where a frame is not the golden renderer's. Throws
+// std::runtime_error, which names the frame, when one cannot be finished.
 int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out);
 
 }  // namespace sgs

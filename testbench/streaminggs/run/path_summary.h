@@ -1,4 +1,4 @@
-// What the frames of a camera path come to.
+// Frame rates and power over the frames of a camera path.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace sgs {
 
-// What one frame takes, and what the machine takes for nothing while it waits for the next one: its
+// Time and energy of one frame, and the power while the machine waits for the next one: its
 // leakage, and the memory's standby and refresh. Its clock stands then.
 struct PathFrame {
   double time_s = 0, energy_j = 0, idle_w = 0;

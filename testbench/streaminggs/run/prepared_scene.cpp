@@ -51,7 +51,7 @@ PreparedScene store(std::string name, std::uint64_t dropped_invalid, ActivatedCl
   const StorageScheme& scheme = scheme_of(storage.order);
   out.choices = scheme.choose(storage, cloud);
   naming_origins(config, [&] {
-    scheme.check(storage);  // before the work
+    scheme.check(storage);  // before anything is computed
     if (SecondHalfFormat{storage.encoding, 0, {}}.quantised()) {
       const QuantisedCloud quantised = quantised_bands(cloud, storage, quantise);
       out.stored = store_quantised(std::move(cloud), quantised, storage);

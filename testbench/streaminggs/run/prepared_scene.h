@@ -20,10 +20,10 @@ struct PreparedScene {
   std::string name;
   std::uint64_t dropped_invalid = 0;
   StoredScene stored;
-  std::vector<StorageChoice> choices = {};  // that were left to the scene
-  std::uint64_t image_hash = 0;             // of the bytes that are loaded into the memory
+  std::vector<StorageChoice> choices = {};  // choices that were left to the scene
+  std::uint64_t image_hash = 0;             // hash of the bytes loaded into the memory
 
-  // What the reference picture is of: the scene as given, where it is at hand, in storage order.
+  // The scene that the reference picture shows: as given, where it is at hand, in storage order.
   const ActivatedCloud& given() const {
     return stored.original ? *stored.original : stored.decoded;
   }

@@ -1,4 +1,4 @@
-// Progress of long work, on a terminal only.
+// Progress of a long job, on a terminal only.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace sgs {
 
-// A line of stderr, rewritten with each news and wiped when the work is done; nothing where
+// A line of stderr, rewritten with each news and wiped when the job is done; nothing where
 // stderr is no terminal.
 class ProgressLine {
  public:

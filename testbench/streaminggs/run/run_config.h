@@ -22,9 +22,9 @@ struct RunConfig {
   std::unique_ptr<MachineDesign> design;
   StorageConfig storage;
   DramConfig dram;
-  std::vector<AutoChoice> chosen;     // what was left to the model
+  std::vector<AutoChoice> chosen;     // values left to the model
   std::vector<ConfigOrigin> origins;  // where the document says what
-  std::string storage_source;  // of a packed scene, a line: the file, what it holds, who differs
+  std::string storage_source;  // one line about a packed scene: the file, its contents, who differs
 
   const char* machine() const { return (*kinds)[kind].name; }
   void add_choices(const std::vector<StorageChoice>& choices);
@@ -38,8 +38,8 @@ std::string readers_of(const std::vector<MachineKind>& kinds, StorageOrder order
 // As the document says; what is left to the model is not resolved yet. Throws InputError.
 RunConfig read_run_config(const ConfigDocument& document, const std::vector<MachineKind>& kinds);
 
-// Does it. What refuses a key, by its path or by that below `storage`, then also says where its
-// value is from.
+// Runs `act`. An error that refuses a key, by its path or by that below `storage`, then also says
+// where its value is from.
 void naming_origins(const RunConfig& config, const std::function<void()>& act);
 
 // Makes it the resolved, valid configuration. Throws InputError, also for what --set says of

@@ -1,4 +1,4 @@
-// What a run of `simulate` knows before its first frame.
+// The facts that a run of `simulate` knows before its first frame.
 #pragma once
 
 #include "testbench/cost/technology.h"

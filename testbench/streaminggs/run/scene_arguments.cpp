@@ -39,7 +39,8 @@ std::pair<int, int> parse_size(const std::string& size) {
   return {width, height};
 }
 
-// What a frame of another shape than the camera's does to it; empty where rounding explains it.
+// Describes how a frame of another shape than the camera's stretches the picture; empty where
+// rounding explains it.
 std::string stretch_of(const std::string& size, int view, const Camera& camera, PixelSize frame) {
   const double rows = static_cast<double>(camera.height) * frame.width / camera.width;
   if (std::abs(rows - frame.height) < 1) return "";

@@ -1,4 +1,5 @@
-// What all commands on a scene have in common: SCENE, --cameras, --view, --size, --drop-invalid.
+// The arguments that all commands on a scene have in common: SCENE, --cameras, --view, --size,
+// --drop-invalid.
 #pragma once
 
 #include <optional>
@@ -34,12 +35,12 @@ struct SceneArguments {
   std::string size;           // "WxH" or empty
   std::vector<int> weigh_by;  // numbers of cameras; empty: all
   bool drop_invalid = false;
-  std::string cache;  // of codebooks, as CodebookCache takes it
+  std::string cache;  // cache of codebooks, as CodebookCache takes it
 
   // forms: what SCENE may be.
   void add_scene_to(CommandLine& line, const char* forms = kSceneForms);
   void add_views_to(CommandLine& line);
-  // What of these two holds for several scenes.
+  // Those arguments of the two above that hold for several scenes.
   void add_dropping_to(CommandLine& line);
   void add_choice_of_views_to(CommandLine& line);
 

@@ -59,7 +59,7 @@ void list_sh_bands(const StoredScene& scene, DataSheet& sheet) {
        whole, stored);
 }
 
-// What the storage left out, and the machine.
+// Lists the data that the storage and the machine left out.
 void list_left_out(const StoredScene& scene, const MachineResult& machine, DataSheet& sheet) {
   const SceneLayout& layout = scene.image.layout;
   const std::uint64_t invisible = scene.gaussians - layout.gaussian_count();

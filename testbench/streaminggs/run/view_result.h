@@ -31,11 +31,12 @@ struct ViewJob {
 ViewJob view_job(const PreparedScene& scene, int view, const Camera& camera,
                  const RunConfig& config);
 
-// What is drawn of a view by the scene, the camera and the background, whatever machine it is for.
+// Pictures of a view that depend on the scene, the camera and the background, but not on the
+// machine.
 struct ReferencePictures {
-  Image reference;                                // of the scene as given, in storage order
-  Image decoded_reference;                        // of the scene as encoded
-  std::optional<FileOrderDifference> file_order;  // of `reference`; none where it is not known
+  Image reference;                                // the scene as given, in storage order
+  Image decoded_reference;                        // the scene as encoded
+  std::optional<FileOrderDifference> file_order;  // for `reference`; none where it is not known
 };
 
 // drawn: that of the scene as encoded, where it is known; null: it is drawn.
@@ -63,8 +64,8 @@ struct ViewResult : ReferencePictures, JudgedFrame {
   std::vector<LeftOut> left_out;
   Binding binding;
   CostResult energy_j, area_mm2;
-  SramModel sram_model;          // that they were made with
-  std::uint64_t image_hash = 0;  // of the bytes loaded into the memory
+  SramModel sram_model;          // the model they were made with
+  std::uint64_t image_hash = 0;  // hash of the bytes loaded into the memory
   std::uint64_t once_bytes = 0;  // each contributing Gaussian read once, each pixel written
   double once_ratio() const {
     return static_cast<double>(run.memory.bytes) / static_cast<double>(once_bytes);
@@ -72,7 +73,7 @@ struct ViewResult : ReferencePictures, JudgedFrame {
   double mean_power_w() const { return run.cycles > 0 ? energy_j.total.middle / run.time_s() : 0; }
 };
 
-// What follows from all of that and a simulation; `left_out` and `equals_golden` are not filled in.
+// Makes the result from these and a simulation; `left_out` and `equals_golden` are not filled in.
 ViewResult view_result(const PreparedScene& scene, const ViewJob& job, ReferencePictures pictures,
                        GoldenFrame golden, JudgedFrame judged, FrameResult run,
                        const Technology& technology);

@@ -32,7 +32,7 @@ void write_view(const fs::path& folder, const ViewResult& view, const std::strin
   };
   write_image(add("frame.exr"), view.frame);
   write_image(add("reference.exr"), view.reference);
-  // Of 8 bits a channel both are often the same.
+  // With 8 bits a channel both pictures are often the same.
   const std::string frame = encode_png(view.frame);
   add("frame.png").write(frame);
   add("reference.png")
@@ -69,7 +69,7 @@ int run_views(const NumberedCameras& views, RunSetting& setting, const ResultFol
   std::vector<std::pair<int, std::string>> failed;
   std::vector<ViewResult> results;
   bool equal = true, all_refused = true;
-  std::size_t named = 0;  // of failed
+  std::size_t named = 0;  // among failed
   print_table_head();
   for (const auto& [number, camera] : views) {
     try {

@@ -13,7 +13,7 @@ namespace sgs {
 // A point says what it differs in; what is longer is no text that anybody wrote.
 constexpr std::size_t kLongestLineBytes = 1'000'000;
 
-// Of a file descriptor, for poll().
+// Reads points from a file descriptor, which poll() can wait for.
 class PointStream {
  public:
   explicit PointStream(int descriptor) : descriptor_(descriptor) {}
@@ -35,7 +35,7 @@ class PointStream {
   bool ended_ = false;
   std::string line_;       // as much of it as has come
   bool too_long_ = false;  // and refused: what still comes of it is dropped
-  int number_ = 1;         // of the line
+  int number_ = 1;         // the line's number
 };
 
 }  // namespace sgs

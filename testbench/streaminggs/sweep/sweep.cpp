@@ -30,7 +30,7 @@ bool by_what_is_shared(const SweepTask& a, const SweepTask& b) {
 
 }  // namespace
 
-// Whether it need not be simulated.
+// True if the point need not be simulated.
 bool Sweep::has_result(const std::string& key) const {
   const SweepResults::Facts* known = results_.find(key);
   if (known == nullptr) return false;
@@ -68,7 +68,7 @@ bool Sweep::run(PointStream* stream,
     }
     start_waiting();
     progress(counts_);
-    // What has arrived is planned before more is read: who sends too much has to wait.
+    // Points that have arrived are planned before more are read: who sends too many has to wait.
     const bool more = stream != nullptr && !stream->ended();
     if (running_.empty() && waiting_.empty() && arrived_.empty() && !more) return true;
     wait_for_something(more && arrived_.empty() ? stream : nullptr);

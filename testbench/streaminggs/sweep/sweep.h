@@ -21,14 +21,14 @@ namespace sgs {
 struct SweepCounts {
   std::uint64_t asked = 0;  // all that are known
   std::uint64_t done = 0, refused = 0, failed = 0;
-  std::uint64_t kept = 0;       // of these three, earlier sweeps' results
+  std::uint64_t kept = 0;       // results of earlier sweeps among these three
   std::uint64_t simulated = 0;  // by this sweep, to whatever end
   std::uint64_t answered() const { return done + refused + failed; }
 };
 
 struct SweepAnswer {
   const SweepTask& task;
-  const std::string line;    // of sweep_record.h
+  const std::string line;    // as in sweep_record.h
   const std::string status;  // in that line
   const bool kept;           // by an earlier sweep
 };
@@ -43,7 +43,7 @@ class Sweep {
   std::function<void(const SweepAnswer&)> answer;
   // Told whenever something has changed, and some times a second.
   std::function<void(const SweepCounts&)> progress;
-  // Whether to stop; asked some times a second.
+  // True if the sweep is to stop; asked some times a second.
   std::function<bool()> stop;
 
   void add(std::vector<SweepTask> tasks);

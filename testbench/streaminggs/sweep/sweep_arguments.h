@@ -1,4 +1,4 @@
-// What `sweep` takes from its command line.
+// The arguments of `sweep` on its command line.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace sgs {
 
 struct SweepArguments {
   std::vector<std::string> scenes, cameras;
-  SceneArguments all;  // what holds for all of them
+  SceneArguments all;  // arguments that hold for all of them
   ConfigSource config;
   std::vector<std::string> axes;
   std::string points, out, csv;
@@ -25,7 +25,7 @@ struct SweepArguments {
 
   void add_to(CommandLine& line);
 
-  // Whether points come on standard input.
+  // True if points come on standard input.
   bool streaming() const;
 
   // Each scene with its cameras. Throws InputError.

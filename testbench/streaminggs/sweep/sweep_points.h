@@ -1,4 +1,4 @@
-// What a sweep is to simulate, as its user says it.
+// The points that a sweep is to simulate, as its user says them.
 #pragma once
 
 #include <string>
@@ -25,7 +25,7 @@ std::vector<SweepPoint> grid_of(const std::vector<std::string>& axes);
 // each of which may be left out. place: of the line, for messages. Throws InputError.
 SweepPoint parse_point(const std::string& line, const std::string& place);
 
-// What of a line of a list says something: all before a '#', without blanks around it; of JSON all.
+// The content of a list's line: all before a '#', without blanks around it; all of a JSON line.
 std::string content_of(const std::string& line);
 
 // The lines of a file that have content. Throws InputError, also where none has.

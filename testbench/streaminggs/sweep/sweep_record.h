@@ -11,7 +11,7 @@ constexpr const char* kPointDone = "done";
 constexpr const char* kPointRefused = "refused";
 constexpr const char* kPointFailed = "failed";
 
-// What was asked for, in the words in which it was.
+// The point that was asked for, in its user's words.
 struct PointInWords {
   std::string scene, cameras, view, size, config;  // empty: not said
   std::vector<std::string> overrides;
@@ -21,10 +21,10 @@ struct PointInWords {
 // activity waited, the ledger, the uses of on-chip memory, the bands, what was left out.
 std::string line_of_done(const std::string& key, const PointInWords& point,
                          const nlohmann::ordered_json& report);
-// What the command does not take, and why.
+// Line of a point that the command does not take, and why.
 std::string line_of_refused(const std::string& key, const PointInWords& point,
                             const std::string& why);
-// What ended badly, for the so-many-th time.
+// Line of a point that failed, and how often it was attempted.
 std::string line_of_failed(const std::string& key, const PointInWords& point,
                            const std::string& why, int attempts);
 
@@ -33,7 +33,7 @@ std::string line_of_failed(const std::string& key, const PointInWords& point,
 std::string answer_of(const std::string& line, const std::string& id, const PointInWords& point,
                       bool kept);
 
-// Of a refused or failed one, a line for people: which point, and why.
+// A line for people about a refused or failed point: which one, and why.
 std::string in_short(const std::string& line);
 
 }  // namespace sgs

@@ -27,7 +27,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What every line begins with. What else a torn last line may hold is a user's, and not touched.
+// The beginning of every line. A torn last line that begins otherwise is a user's, and not touched.
 constexpr std::string_view kBegin = R"({"key":")";
 
 // A sweep that was killed has it until its children have ended, too.
@@ -40,7 +40,7 @@ bool lock(int file) {
   return false;
 }
 
-// Whether the path still names what was opened.
+// True if the path still names the opened file.
 bool is_at(int file, const std::string& path) {
   struct stat opened {};
   struct stat named {};

@@ -22,9 +22,9 @@ class SweepResults {
 
   struct Facts {
     std::string status;
-    int attempts = 0;  // of what failed
+    int attempts = 0;  // how often a failed point was attempted
   };
-  // Of the result of a key; null where there is none.
+  // The facts of a key's result; null where there is none.
   const Facts* find(const std::string& key) const;
 
   // The line of a key that is there, as it was written.

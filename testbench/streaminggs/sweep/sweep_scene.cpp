@@ -22,7 +22,7 @@ std::uint64_t size_bytes(const PreparedScene& scene) {
 
 SweepScene::SweepScene(SceneArguments arguments) : arguments_(std::move(arguments)) {
   if (is_builtin_scene(arguments_.scene)) {
-    // Of the text, and of the program, which stands in every key.
+    // A built-in scene follows from its text and from the program, which stands in every key.
     digest_ = xxh64_of_text(arguments_.scene);
     cloud();
     return;

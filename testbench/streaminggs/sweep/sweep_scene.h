@@ -27,7 +27,7 @@ class SweepScene {
 
   const SceneArguments& arguments() const { return arguments_; }
 
-  // Of the bytes that the scene is made from.
+  // Digest of the bytes that the scene is made from.
   std::uint64_t digest() const { return digest_; }
 
   // Throws InputError.
@@ -37,7 +37,7 @@ class SweepScene {
   // packed scene. Throws InputError.
   void resolve(RunConfig& config, const std::string& preset) const;
 
-  // What prepared() depends on beside the scene, as a text. Throws InputError.
+  // The values that prepared() depends on beside the scene, as a text. Throws InputError.
   std::string storage_key(RunConfig& config) const;
 
   // The scene stored as a resolved configuration says, or restored; the configuration is not

@@ -1,4 +1,4 @@
-// What is shared is made in the parent, and its pages stay shared: nobody writes to them.
+// Shared data are made in the parent, and their pages stay shared: nobody writes to them.
 #include "testbench/streaminggs/sweep/sweep_simulations.h"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ std::uint64_t memory_bytes() {
 
 std::uint64_t bytes_of(const Image& image) { return image.pixels.size() * sizeof image.pixels[0]; }
 
-// What else a design's golden renderer knows is not asked for.
+// The data sheet of the design's golden renderer is not read.
 ExpectedFrame expected_of(const MachineDesign& design, const PreparedScene& scene,
                           const ViewJob& job, const ReferencePictures& pictures) {
   DataSheet unread;

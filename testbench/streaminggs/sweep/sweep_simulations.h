@@ -21,11 +21,11 @@ namespace sgs {
 // The frame that a machine must give, and what it is worth.
 struct ExpectedFrame {
   GoldenFrame golden;
-  std::vector<std::byte> bytes;  // of the frame buffer
+  std::vector<std::byte> bytes;  // the frame buffer's
   JudgedFrame judged;
 };
 
-// What they take of memory.
+// Host memory that they use, in bytes.
 std::uint64_t size_bytes(const ReferencePictures& pictures);
 std::uint64_t size_bytes(const ExpectedFrame& expected);
 

@@ -10,7 +10,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kOfPoint[] = {"scene", "cameras", "view", "size", "config"};
-// Of every configuration with groups, whoever chose them.
+// Keys of every configuration with groups, whoever chose them.
 constexpr const char* kGroup[] = {"group_width_px", "group_height_px"};
 // A column of a table, and where the report has it. On-chip memory that is needed has another name
 // than the key that says how much there is.
@@ -48,7 +48,7 @@ constexpr Column kOfReport[] = {
     {"host.simulation_wall_s", "host.simulation_wall_s"},
 };
 
-// What stands at "a.b.c"; null where nothing does.
+// The value at "a.b.c"; null where there is none.
 const Json* find(const Json& in, const std::string& path) {
   const Json* at = &in;
   for (std::size_t begin = 0; begin <= path.size();) {
@@ -115,7 +115,7 @@ std::string SweepTable::csv() const {
   columns.insert(columns.end(), {"status", "reason"});
   for (const Column& column : kOfReport) columns.emplace_back(column.name);
   columns.emplace_back("key");
-  // What no machine of this sweep has is no column.
+  // A quantity that no machine of this sweep has gets no column.
   const auto empty = [&](const std::string& column) {
     return std::none_of(rows_.begin(), rows_.end(), [&](const Row& row) {
       const auto cell = row.find(column);

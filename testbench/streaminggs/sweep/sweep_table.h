@@ -21,7 +21,7 @@ class SweepTable {
   using Row = std::map<std::string, std::string>;  // cell by column
   void add_keys(const std::vector<std::string>& keys);
 
-  std::vector<std::string> keys_;  // of configurations, in the order in which they came
+  std::vector<std::string> keys_;  // keys of configurations, in the order in which they came
   std::vector<Row> rows_;
 };
 

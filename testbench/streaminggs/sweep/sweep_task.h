@@ -21,7 +21,7 @@ namespace sgs {
 
 struct SweepTask {
   PointInWords words;
-  std::string id;  // of the point
+  std::string id;  // the point's id
   ConfigSource config;
   SweepScene* scene = nullptr;
   int view = 0;
@@ -32,13 +32,13 @@ struct SweepTask {
   std::string storage, picture;
 };
 
-// What holds for all points of a sweep that do not say otherwise.
+// Values for all points of a sweep that do not say otherwise.
 struct SweepDefaults {
   SceneArguments any_scene;  // all but its name, cameras, view and size
   std::vector<SceneArguments> scenes;
   std::string view, size;
   ConfigSource config;
-  std::uint64_t technology_hash = 0;  // of the table's file
+  std::uint64_t technology_hash = 0;  // hash of the table's file
 };
 
 class SweepPlan {
@@ -46,7 +46,7 @@ class SweepPlan {
   SweepPlan(SweepDefaults defaults, const Kinds& kinds);
 
   // Throws InputError where a scene of the command line, its cameras or its views are not there.
-  // What is to be said of their pictures.
+  // Returns remarks about their pictures.
   std::vector<std::string> check_scenes();
 
   // Those of a point: each of its scenes and views. One whose configuration cannot be is among

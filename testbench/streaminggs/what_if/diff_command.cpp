@@ -15,7 +15,7 @@ namespace {
 
 struct QuantityWords {
   const char *name, *unit, *parts;
-  double scale;  // of the unit
+  double scale;  // factor to `unit`
 };
 
 // By Quantity.

@@ -14,7 +14,7 @@ constexpr double kSameGain = 0.001;
 
 double saved(double before, double after) { return before > 0 ? 1 - after / before : 0; }
 
-// That of what the binding names, which may have been refused; null: nothing doubles it.
+// The doubling of the binding's remedy, which may have been refused; null: nothing doubles it.
 const Doubling* named_by(const Binding& binding, const std::vector<Doubling>& doublings) {
   const auto named = std::find_if(doublings.begin(), doublings.end(), [&](const Doubling& each) {
     return each.key == binding.remedy.key;
@@ -22,7 +22,7 @@ const Doubling* named_by(const Binding& binding, const std::vector<Doubling>& do
   return named == doublings.end() ? nullptr : &*named;
 }
 
-// Of whole cycles there is no half.
+// Half of a value; whole cycles are rounded up.
 double halved(double value) {
   return std::floor(value) == value ? std::ceil(value / 2) : value / 2;
 }

@@ -1,5 +1,5 @@
-// What a frame would gain from twice as much of one thing, one thing after the other; of what takes
-// cycles, from half as many.
+// The gain of a frame from twice as much of one resource, one after the other. Values that cost
+// cycles are halved instead.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct Doubling {
   Outcome outcome;
 };
 
-// What the machine's data sheets and the memory name as remedies, each key once, in their order.
+// The remedies that the machine's data sheets and the memory name, each key once, in their order.
 std::vector<Remedy> remedies_of(const FrameResult& frame);
 
 // Shares of the base's time and energy that are saved; negative: it takes more.
@@ -41,12 +41,12 @@ std::string change_in_words(double saved);
 // Most time saved first, the cheaper of equals; what was refused comes last.
 void rank(const Outcome& base, std::vector<Doubling>& doublings);
 
-// Whether no other one gains more than that which the base's binding names, but for a thousandth of
-// the frame.
+// True if no other doubling gains more than the one that the base's binding names, but for a
+// thousandth of the frame.
 bool named_gains_most(const Outcome& base, const std::vector<Doubling>& doublings);
 
-// Whether the resource that the base's binding names is the one that gains most, with the numbers;
-// where it is not, what holds the frame once it is doubled. doublings: ranked.
+// Says, with the numbers, whether the base's bottleneck (its binding's resource) is the one that
+// gains most. Where it is not, says what holds the frame once it is doubled. doublings: ranked.
 std::string verdict(const Outcome& base, const std::vector<Doubling>& doublings);
 
 }  // namespace sgs

@@ -31,8 +31,8 @@ struct WhatIfArguments : SceneArguments {
   std::string out;  // JSON; empty: the terminal alone
 };
 
-// What stays as it was decided for the frame. All else that the configuration leaves open follows
-// anew from what is doubled: on-chip memories, depths of pipelines.
+// Keys that stay as they were decided for the frame. All else that the configuration leaves open
+// follows anew from the doubled value: on-chip memories, depths of pipelines.
 constexpr const char* kDecided[] = {"/group_width_px", "/group_height_px", "/storage"};
 
 // A scene, and a machine for it.
@@ -98,7 +98,7 @@ void print(const Outcome& base, const std::vector<Doubling>& doublings) {
     const double time = time_saved(base, d.outcome);
     const double energy = energy_saved(base, d.outcome);
     const double mm2 = d.outcome.mm2 - base.mm2;
-    // Of the memory most stands beside the chip, where its area is not counted.
+    // Most of the memory stands beside the chip, where its area is not counted.
     const bool counted = d.key.rfind("dram.", 0) != 0;
     const auto per_mm2 = [&](double gain) {
       return counted && mm2 > 0 ? change_in_words(gain / mm2) : std::string("-");
