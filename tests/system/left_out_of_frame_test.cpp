@@ -115,9 +115,9 @@ TEST_CASE("left out: what a tile-centric machine spares") {
   for (const auto& [what, count] :
        {Skipped{"entries_of_finished_tiles", pairs - sorted},
         Skipped{"reads_of_finished_tiles",
-               pairs + total(view, "entries_split") - total(view, "entries_read")},
+                pairs + total(view, "entries_split") - total(view, "entries_read")},
         Skipped{"records_of_finished_tiles",
-               sorted - counter_of_all(view, "rendering", "records")}}) {
+                sorted - counter_of_all(view, "rendering", "records")}}) {
     INFO(what);
     CHECK(left_out(view, what) == count);
   }
