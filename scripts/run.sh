@@ -22,6 +22,6 @@ Look at
   $out/view_0/frame.png       the frame, read back from the modelled DRAM
   $out/view_0/reference.png   the reference renderer's
   $out/view_0/error.png       their difference: black where there is none, a legend beside it
-  $out/view_0/report.json     every number, explained in testbench/streaminggs/README.md
+  $out/view_0/report.json     every number, explained in testbench/streaminggs/REPORT.md
   $out/small_frame.vcd        a waveform: gtkwave $out/small_frame.vcd traces/accelerator.gtkw
 TEXT
