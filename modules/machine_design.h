@@ -51,9 +51,9 @@ class MachineDesign {
   // the arithmetic.
   virtual void resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) = 0;
 
-  // Leaves the sizes of on-chip memories to what the other parameters need, for resolve() to fill
-  // in.
-  virtual void fit_memories() {}
+  // From here on resolve() makes on-chip memories as large as all else needs, once it has decided
+  // what their sizes decide. Before resolve(). Returns their keys; codebooks are of the scene.
+  virtual std::vector<const char*> fit_memories() { return {}; }
 
   // As resolve(), once the scene is known. Throws InputError when the scene does not fit.
   virtual void adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) = 0;

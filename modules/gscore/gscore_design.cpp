@@ -23,6 +23,7 @@ void GscoreDesign::fit_frames(const std::function<std::vector<PixelSize>()>& fra
 void GscoreDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) {
   constexpr std::uint32_t kTilesOfAnyFrame = 4096;  // where none is going to be drawn
   check(config_);
+  const bool decides = lists_open(config_);  // by the memory's size
   choose_list_memory(config_, tiles_ > 0 ? tiles_ : kTilesOfAnyFrame, chosen);
   if (storage.encoding != SecondHalfEncoding::kRaw &&
       storage.encoding != SecondHalfEncoding::kHalf) {
@@ -32,14 +33,18 @@ void GscoreDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>
   }
   const SramUses uses = sram_uses(config_);
   const std::uint64_t needed = sram_bytes(uses, kBuffer);
-  if (config_.sram.buffer_bytes == 0) {
-    config_.sram.buffer_bytes = static_cast<std::uint32_t>(needed);
-    chosen.push_back({"sram.buffer_bytes", static_cast<double>(needed), sram_sum(uses, kBuffer)});
-  }
-  if (needed > config_.sram.buffer_bytes) {
+  std::uint32_t& bytes = config_.sram.buffer_bytes;
+  if (bytes != 0 && needed > bytes && (decides || !memory_fitted_)) {
     throw InputError(fmt::format(
-        "sram.buffer_bytes: {} bytes are there, expected at least {}, or 0 for as many as that: {}",
-        config_.sram.buffer_bytes, needed, largest_uses(uses, kBuffer)));
+        "sram.buffer_bytes: {} bytes are there{}, expected at least {}, or 0 for as many as that: "
+        "{}",
+        bytes, memory_fitted_ ? " to decide the lists by" : "", needed,
+        largest_uses(uses, kBuffer)));
+  }
+  if (bytes == 0 || memory_fitted_) {
+    bytes = static_cast<std::uint32_t>(needed);
+    chosen.push_back({ChoiceKind::kDerived, "sram.buffer_bytes", static_cast<double>(needed),
+                      sram_sum(uses, kBuffer)});
   }
 }
 

@@ -13,7 +13,10 @@ class GscoreDesign : public MachineDesign {
   StorageOrder storage_order() const override { return StorageOrder::kFile; }
   void fit_frames(const std::function<std::vector<PixelSize>()>& frames) override;
   void resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) override;
-  void fit_memories() override { config_.sram.buffer_bytes = 0; }
+  std::vector<const char*> fit_memories() override {
+    memory_fitted_ = true;
+    return {"sram.buffer_bytes"};
+  }
   void adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) override;
   FrameJob job(const StoredScene& scene, const Camera& camera) const override;
   GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
@@ -25,7 +28,8 @@ class GscoreDesign : public MachineDesign {
 
  private:
   GscoreConfig config_;
-  std::uint32_t tiles_ = 0;  // tiles of the largest frame; 0: not known
+  std::uint32_t tiles_ = 0;     // tiles of the largest frame; 0: not known
+  bool memory_fitted_ = false;  // fit_memories()
 };
 
 }  // namespace sgs::gscore

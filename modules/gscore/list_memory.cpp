@@ -47,11 +47,15 @@ bool fits(const GscoreConfig& config) {
 
 }  // namespace
 
+bool lists_open(const GscoreConfig& config) {
+  return config.lists.tiles == 0 || config.lists.lines == 0 || config.sorting.list_entries == 0;
+}
+
 void choose_list_memory(GscoreConfig& config, std::uint32_t tiles,
                         std::vector<AutoChoice>& chosen) {
   const bool open_tiles = config.lists.tiles == 0, open_lines = config.lists.lines == 0,
              open_entries = config.sorting.list_entries == 0;
-  if (!open_tiles && !open_lines && !open_entries) return;
+  if (!lists_open(config)) return;
   const auto lines_beside = [&](std::uint32_t entries, std::uint32_t of_pass) {
     if (open_entries) config.sorting.list_entries = std::max(entries, config.sorting.chunk_entries);
     config.lists.tiles = of_pass;
@@ -85,18 +89,20 @@ void choose_list_memory(GscoreConfig& config, std::uint32_t tiles,
                                                    return fits(config);
                                                  });
   }
+  constexpr ChoiceKind kKind = ChoiceKind::kDecided;
   const std::string of = fmt::format("of {} tiles of the largest frame", tiles);
   if (open_tiles) {
     chosen.push_back(
-        {"lists.tiles", static_cast<double>(of_pass),
+        {kKind, "lists.tiles", static_cast<double>(of_pass),
          fmt::format("{}, in as few passes as leave a line for {} tiles", of, kMostTilesOfLine)});
   }
   if (open_lines) {
-    chosen.push_back({"lists.lines", static_cast<double>(lines),
+    chosen.push_back({kKind, "lists.lines", static_cast<double>(lines),
                       fmt::format("as many as fit, one a tile at most: {} tiles a pass", of_pass)});
   }
   if (open_entries) {
-    chosen.push_back({"sorting.list_entries", static_cast<double>(config.sorting.list_entries),
+    chosen.push_back({kKind, "sorting.list_entries",
+                      static_cast<double>(config.sorting.list_entries),
                       "lists on chip as long as what is left allows"});
   }
 }

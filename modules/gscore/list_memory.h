@@ -10,6 +10,9 @@
 
 namespace sgs::gscore {
 
+// Whether any of the keys that choose_list_memory() fills in is left open.
+bool lists_open(const GscoreConfig& config);
+
 // Fills in `lists.tiles`, `lists.lines` and `sorting.list_entries` where they are 0, and says why.
 // First as few passes over the scene as leave a pass's tiles enough lines to combine their entries
 // in. Then as many lines, up to one a tile; then lists on chip as long as the rest allows. In a

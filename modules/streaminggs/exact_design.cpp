@@ -15,7 +15,7 @@ void ExactDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>&
   storage_ = storage;
   resolve_rendering_depths(config_, chosen);
   resolve_sram(
-      config_, storage_, frames_, [&] { return sram_uses(config_, storage_); }, chosen);
+      config_, storage_, sram_, [&] { return sram_uses(config_, storage_); }, chosen);
 }
 
 void ExactDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) {

@@ -14,9 +14,9 @@ class ExactDesign : public MachineDesign {
   StorageOrder storage_order() const override { return StorageOrder::kChunks; }
   void resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) override;
   void fit_frames(const std::function<std::vector<PixelSize>()>& frames) override {
-    frames_ = frames_for(config_, frames);
+    sram_.frames = frames_for(config_, frames);
   }
-  void fit_memories() override { sgs::fit_memories(config_); }
+  std::vector<const char*> fit_memories() override { return sram_.fit(); }
   void adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) override;
   FrameJob job(const StoredScene& scene, const Camera& camera) const override;
   GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
@@ -33,7 +33,7 @@ class ExactDesign : public MachineDesign {
                         DataSheet& sheet) const;
 
   ExactConfig config_;
-  std::vector<PixelSize> frames_;
+  SramPlan sram_;
   StorageConfig storage_;  // storage of the scenes that it is built for
 };
 

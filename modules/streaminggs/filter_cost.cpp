@@ -31,9 +31,9 @@ std::vector<AutoChoice> resolve_filter_cost(HfuConfig& hfu, const RecordSplit& s
   take_count("hfu.cfu_macs", hfu.cfu_macs, coarse_datapath(hfu, split.bound_by, 1).counted_macs);
   take_count("hfu.ffu_macs", hfu.ffu_macs,
              fine_datapath(hfu, split.fine_record(sh_degree)).counted_macs);
-  return {{"hfu.cfu_macs", static_cast<double>(hfu.cfu_macs),
+  return {{ChoiceKind::kDerived, "hfu.cfu_macs", static_cast<double>(hfu.cfu_macs),
            fmt::format("counted on the coarse filter; the paper says {}", kPaperCfuMacs)},
-          {"hfu.ffu_macs", static_cast<double>(hfu.ffu_macs),
+          {ChoiceKind::kDerived, "hfu.ffu_macs", static_cast<double>(hfu.ffu_macs),
            fmt::format("counted on the fine filter at SH degree {}; the paper says {}", sh_degree,
                        kPaperFfuMacs)}};
 }

@@ -50,7 +50,7 @@ void PaperDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>&
                 pixel_ray_flow().longest_path(latencies), latencies, kWriteCycles, chosen);
   resolve_rendering_depths(config_, chosen);
   resolve_sram(
-      config_, storage_, frames_, [&] { return sram_uses(config_, storage_); }, chosen);
+      config_, storage_, sram_, [&] { return sram_uses(config_, storage_); }, chosen);
   check_rays(config_);
 }
 

@@ -36,8 +36,9 @@ void choose_group(StreamingConfig& config, std::vector<PixelSize> frames,
       "{} px x {} px have the shortest borders of those groups whose pixels fit: {} of {} B are "
       "used",
       best.width, best.height, needed(best), config.sram.shared_bytes);
-  chosen.push_back({"group_width_px", static_cast<double>(best.width), why});
-  chosen.push_back({"group_height_px", static_cast<double>(best.height), why});
+  constexpr ChoiceKind kKind = ChoiceKind::kDecided;
+  chosen.push_back({kKind, "group_width_px", static_cast<double>(best.width), why});
+  chosen.push_back({kKind, "group_height_px", static_cast<double>(best.height), why});
 }
 
 // One memory: sized where it is left open, checked where it is given.
@@ -45,12 +46,18 @@ void size(const char* key, std::uint32_t& bytes, const SramUses& uses, const std
           std::vector<AutoChoice>& chosen) {
   if (bytes == 0) {
     bytes = static_cast<std::uint32_t>(sram_bytes(uses, memory));
-    chosen.push_back({key, static_cast<double>(bytes), sram_sum(uses, memory)});
+    chosen.push_back(
+        {ChoiceKind::kDerived, key, static_cast<double>(bytes), sram_sum(uses, memory)});
   }
   check_sram(key, bytes, uses, memory, ", or 0 for as many as that");
 }
 
 }  // namespace
+
+std::vector<const char*> SramPlan::fit() {
+  fitted = true;
+  return {"sram.input_bytes", "sram.shared_bytes"};
+}
 
 FifoKind<VisitShare> visit_fifos(const StreamingConfig& c) {
   return {"visits", "visits", c.fetches(), kVisitFifoEntries, 1};
@@ -77,9 +84,8 @@ void check_sram(const char* key, std::uint64_t available, const SramUses& uses,
                                needed, otherwise, largest_uses(uses, memory)));
 }
 
-void resolve_sram(StreamingConfig& config, const StorageConfig& storage,
-                  const std::vector<PixelSize>& frames, const std::function<SramUses()>& uses,
-                  std::vector<AutoChoice>& chosen) {
+void resolve_sram(StreamingConfig& config, const StorageConfig& storage, const SramPlan& plan,
+                  const std::function<SramUses()>& uses, std::vector<AutoChoice>& chosen) {
   if ((config.group_width_px == 0) != (config.group_height_px == 0)) {
     throw InputError(fmt::format(
         "group_width_px: got {} with group_height_px {}, expected both 0 or neither: a group is "
@@ -92,8 +98,9 @@ void resolve_sram(StreamingConfig& config, const StorageConfig& storage,
           "group_width_px: got 0 with sram.shared_bytes 0, expected one of them: each is chosen "
           "by the other");
     }
-    choose_group(config, frames, uses, chosen);
+    choose_group(config, plan.frames, uses, chosen);
   }
+  if (plan.fitted) config.sram.input_bytes = config.sram.shared_bytes = 0;
   check(config, storage);
   const SramUses all = uses();
   size("sram.input_bytes", config.sram.input_bytes, all, kInputSram, chosen);

@@ -17,6 +17,12 @@ void ConfigSource::add_to(CommandLine& line, const std::string& otherwise) {
   line.texts("--set", overrides, "key.path=value, over the configuration; may be repeated");
 }
 
+void ConfigSource::add_fitting_to(CommandLine& line) {
+  line.flag("--fit-memories", fit_memories,
+            "on-chip memories as large as all else needs; their sizes in the configuration still "
+            "decide what it leaves open, such as groups and lists");
+}
+
 std::string ConfigSource::path() const { return config.empty() ? "" : config_file(config); }
 
 bool ConfigSource::is_preset() const {
@@ -27,9 +33,11 @@ bool ConfigSource::is_preset() const {
 std::string ConfigSource::name() const { return std::filesystem::path(path()).stem().string(); }
 
 std::string ConfigSource::in_words() const {
-  const std::string what = config.empty() ? "defaults" : name();
-  if (overrides.empty()) return what;
-  return fmt::format("{} + {} setting{}", what, overrides.size(), overrides.size() == 1 ? "" : "s");
+  std::string what = config.empty() ? "defaults" : name();
+  if (!overrides.empty()) {
+    what += fmt::format(" + {} setting{}", overrides.size(), overrides.size() == 1 ? "" : "s");
+  }
+  return fit_memories ? what + ", memories fitted" : what;
 }
 
 ConfigDocument ConfigSource::document() const {

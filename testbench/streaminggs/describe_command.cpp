@@ -119,8 +119,9 @@ SubCommand add_describe_command(CommandLine& line, const Kinds& kinds) {
   auto arguments = std::make_shared<ConfigSource>();
   arguments->config = kinds.front().name;
   arguments->add_to(line);
+  arguments->add_fitting_to(line);
   return [arguments, &kinds] {
-    RunConfig config = read_run_config(arguments->document(), kinds);
+    RunConfig config = read_run_config(*arguments, kinds);
     const std::unique_ptr<ConfigWriter> keys = make_listing_writer();
     visit(static_cast<ConfigVisitor&>(*keys), config);
     resolve(config);

@@ -48,7 +48,7 @@ int run(const PackArguments& arguments, const Kinds& kinds) {
     throw InputError(fmt::format("--out: {}, expected a name that ends in {} or .ply",
                                  arguments.out, kImageFileExtension));
   }
-  RunConfig config = read_run_config(arguments.config.document(), kinds);
+  RunConfig config = read_run_config(arguments.config, kinds);
   OutputPlan plan;
   arguments.add_inputs_to(plan);
   plan.add_input(arguments.config.path());
@@ -94,6 +94,7 @@ SubCommand add_pack_command(CommandLine& line, const Kinds& kinds) {
   arguments->add_cache_to(line);
   arguments->config.config = kinds.front().name;
   arguments->config.add_to(line);
+  arguments->config.add_fitting_to(line);
   line.text("--out", arguments->out,
             "file to write: .sgs, or .ply with the Gaussians in storage order", Given::kAlways);
   return [arguments, &kinds] { return run(*arguments, kinds); };

@@ -58,7 +58,7 @@ void render_reference_picture(const RenderArguments& arguments) {
 
 // The picture that a machine must give, and what its order loses.
 void render_golden_picture(const RenderArguments& arguments, const Kinds& kinds) {
-  RunConfig config = read_run_config(arguments.config.document(), kinds);
+  RunConfig config = read_run_config(arguments.config, kinds);
   if (config.machine() != arguments.ordering) {
     throw InputError(
         fmt::format("--ordering {}: the configuration is of machine {}, expected one "
@@ -97,11 +97,14 @@ SubCommand add_render_command(CommandLine& line, const Kinds& kinds) {
   line.one_of(orderings, "--ordering", arguments->ordering,
               "the reference renderer, or the picture that a machine must give");
   arguments->config.add_to(line, "; if not given, the one of the ordering's name");
+  arguments->config.add_fitting_to(line);
   return [arguments, &kinds] {
     const bool reference = arguments->ordering == kReference;
-    if (reference && !(arguments->config.config.empty() && arguments->config.overrides.empty())) {
+    const ConfigSource& given = arguments->config;
+    if (reference && !(given.config.empty() && given.overrides.empty() && !given.fit_memories)) {
       throw InputError(
-          "--config, --set: the reference renderer has nothing to configure, expected "
+          "--config, --set, --fit-memories: the reference renderer has nothing to configure, "
+          "expected "
           "them with the --ordering of a machine");
     }
     if (!reference) arguments->config = completed(arguments->config, arguments->ordering);

@@ -142,7 +142,7 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   RunSetting setting;
   setting.facts.began = std::chrono::steady_clock::now();
   RunConfig& config = setting.config;
-  config = read_run_config(arguments.config.document(), kinds);
+  config = read_run_config(arguments.config, kinds);
   std::optional<PackedScene> packed = arguments.load_packed();
   std::vector<Camera> keys;
   std::optional<PathJob> path;
@@ -163,10 +163,12 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
       adapt(config, arguments.load());
     }
     // Values that were left open stay so: they follow from others, which a reader of this may
-    // change.
-    RunConfig as_read = read_run_config(arguments.config.document(), kinds);
-    if (packed) as_read.storage = packed->storage;
-    fmt::print("{}\n", to_json(as_read));
+    // change. Where memories are fitted, what their configured sizes decide is shown.
+    const ConfigSource& source = arguments.config;
+    RunConfig shown = source.fit_memories ? as_decided(source.document(), config)
+                                          : read_run_config(source.document(), kinds);
+    if (packed) shown.storage = packed->storage;
+    fmt::print("{}\n", to_json(shown));
     return 0;
   }
   const ResultFolder out(arguments.out.empty() ? arguments.default_out(arguments.config.name())
@@ -214,6 +216,7 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   arguments->add_cache_to(line);
   arguments->config.config = kinds.front().name;
   arguments->config.add_to(line);
+  arguments->config.add_fitting_to(line);
   line.file("--out", arguments->out,
             "folder for pictures and reports; out/SCENE/CONFIG by their names if not given");
   line.file("--vcd", arguments->run.vcd_path, "write a waveform");
@@ -240,7 +243,8 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
       "--process-order", build.jitter_seed, 0, kMostSeed,
       "seed that shuffles in which order the processes of an instant act; changes no number");
   line.flag("--print-config", arguments->print_config,
-            "show every key of the configuration: what --config takes; 0 where it is left open");
+            "show every key of the configuration: what --config takes; 0 where it is left open, "
+            "with --fit-memories only where it follows from other keys");
   return [arguments, &kinds] {
     arguments->command = command_line();
     return run(*arguments, kinds);

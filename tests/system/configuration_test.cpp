@@ -77,6 +77,70 @@ TEST_CASE("configuration: what is printed and read again is the same machine, an
   }
 }
 
+TEST_CASE("configuration: fitted memories change nothing but what is left over") {
+  const Arguments scene = {"builtin:object?n=500", "--size", "64x36"};
+  for (const char* preset : {"exact", "paper", "gscore_lossless"}) {
+    INFO(preset);
+    const Arguments drawn = joined(scene, {"--config", preset});
+    const Json plain = Simulation(drawn).views()[0],
+               fitted = Simulation(joined(drawn, {"--fit-memories"})).views()[0];
+    for (const char* same : {"frame", "image", "units", "dram", "energy", "area_mm2", "binding"}) {
+      INFO(same);
+      CHECK(fitted[same] == plain[same]);
+    }
+    for (const auto& [key, bytes] : fitted["config"]["sram"].items()) {
+      if (key == "codebook_bytes") continue;
+      INFO(key);
+      CHECK(bytes == fitted["sram"][key]);
+      CHECK(bytes <= plain["config"]["sram"][key]);
+    }
+  }
+}
+
+TEST_CASE(
+    "configuration: memories that are fitted do not stop what grows, but decide what is open") {
+  const Arguments scene = {"builtin:object?n=500", "--size", "64x36", "--fit-memories"};
+  const Arguments more = with_settings(scene, {"hfus=8"});
+  CHECK(Simulation(more).views()[0]["config"]["hfus"] == 8);
+  CHECK(run_streaminggs({"simulate", "builtin:object?n=500", "--set", "hfus=8"}).status == 2);
+  struct Refusal {
+    const char *preset, *set, *says;
+  };
+  for (const Refusal& of : {
+           Refusal{"exact", "sram.shared_bytes=900000",
+                   "--set sram.shared_bytes=900000: got it with --fit-memories"},
+           Refusal{"gscore", "sram.buffer_bytes=9",
+                   "--set sram.buffer_bytes=9: got it with --fit-memories"},
+           Refusal{"gscore", "cores=64",
+                   "bytes are there to decide the lists by, expected at least"},
+       }) {
+    INFO(of.set);
+    const Outcome refused = run_streaminggs(
+        with_settings(joined({"simulate"}, joined(scene, {"--config", of.preset})), {of.set}));
+    CHECK(refused.status == 2);
+    CHECK_THAT(refused.err, Contains(of.says));
+    CHECK(std::count(refused.err.begin(), refused.err.end(), '\n') == 1);
+  }
+}
+
+TEST_CASE("configuration: what is printed of fitted memories is what they decided") {
+  const ScratchFolder scratch;
+  const Arguments scene = {"builtin:object?n=500", "--size", "64x36", "--fit-memories"};
+  const auto print = [&](const std::string& config) {
+    const Arguments words = joined(scene, {"--config", config, "--print-config"});
+    return run_streaminggs(with_settings(joined({"simulate"}, words), {"framebuffer=rgb32f"})).out;
+  };
+  const std::string printed = print("gscore_lossless");
+  const Json keys = Json::parse(printed);
+  const Json run = Simulation(joined(scene, {"--config", "gscore_lossless"})).views()[0]["config"];
+  for (const char* key : {"/lists/tiles", "/lists/lines", "/sorting/list_entries"}) {
+    INFO(key);
+    CHECK(keys[Json::json_pointer(key)] > 0);
+    CHECK(keys[Json::json_pointer(key)] == run[Json::json_pointer(key)]);
+  }
+  CHECK(print(scratch.write("mine.json", printed)) == printed);
+}
+
 TEST_CASE("configuration: a machine's name alone is the preset of its name, or as little away") {
   const ScratchFolder scratch;
   for (const auto& [machine, differs] : std::vector<std::pair<std::string, const char*>>{

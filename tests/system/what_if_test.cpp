@@ -1,5 +1,7 @@
-// What what-if says of a doubled resource is what simulate says of a machine that has it.
+// What what-if says is what simulate says: of the machine as it is, and of one with a doubled
+// resource.
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -11,15 +13,28 @@ namespace {
 
 using nlohmann::json;
 
-void check_rows(const std::string& preset, const Arguments& drawn) {
+// The answer for a single view.
+json what_if(const Arguments& drawn) {
   const ScratchFolder scratch;
   const std::string table = scratch.path("what_if.json");
-  const Arguments scene = joined(drawn, {"--config", preset});
   const Outcome done = run_streaminggs(
-      with_settings(joined({"what-if"}, joined(scene, {"--out", table})), {"framebuffer=rgb32f"}));
+      with_settings(joined({"what-if"}, joined(drawn, {"--out", table})), {"framebuffer=rgb32f"}));
   INFO(done.err);
   REQUIRE(done.status == 0);
-  const json view = json::parse(std::ifstream(table)).at(0);
+  return json::parse(std::ifstream(table)).at(0);
+}
+
+void check_base(const Arguments& drawn) {
+  const json base = what_if(drawn)["base"], simulated = Simulation(drawn).views()[0];
+  CHECK(base["cycles"] == simulated["frame"]["cycles"]);
+  CHECK(base["bus_bytes"] == simulated["dram"]["bus_bytes"]);
+  CHECK(base["energy_j"] == simulated["energy"]["total_j"]);
+  CHECK(base["area_mm2"] == simulated["area_mm2"]["total"]);
+}
+
+void check_rows(const std::string& preset, const Arguments& drawn) {
+  const Arguments scene = joined(drawn, {"--config", preset});
+  const json view = what_if(scene);
   int rows = 0;
   for (const json& row : view["doubled"]) {
     const auto key = row["key"].get<std::string>();
@@ -28,13 +43,29 @@ void check_rows(const std::string& preset, const Arguments& drawn) {
     to << row["to"].get<double>();
     INFO(preset << ": " << key);
     const Simulation alone(
-        with_settings(scene, {key + "=" + to.str(), "sram.shared_bytes=0", "sram.input_bytes=0"}));
+        with_settings(joined(scene, {"--fit-memories"}), {key + "=" + to.str()}));
     CHECK(alone.views()[0]["frame"]["cycles"] == row["cycles"]);
     CHECK(alone.views()[0]["area_mm2"]["total"].get<double>() ==
           Approx(row["area_mm2"].get<double>()));
     ++rows;
   }
   CHECK(rows > 5);
+}
+
+TEST_CASE("what-if: it begins from the machine that simulate runs, of every preset") {
+  const Arguments scene = {"builtin:object?n=20", "--size", "32x18"};
+  int presets = 0;
+  for (const auto& file :
+       std::filesystem::directory_iterator(SGS_SOURCE_DIR "/testbench/configs")) {
+    if (file.path().extension() != ".json") continue;
+    const std::string preset = file.path().stem().string();
+    INFO(preset);
+    check_base(joined(scene, {"--config", preset}));
+    ++presets;
+  }
+  CHECK(presets >= 14);
+  check_base(with_settings(scene, {"group_width_px=0", "group_height_px=0"}));
+  check_base(with_settings(joined(scene, {"--fit-memories"}), {"hfus=8"}));
 }
 
 TEST_CASE("what-if: a row is the frame of a machine with that much of it, few Gaussians") {

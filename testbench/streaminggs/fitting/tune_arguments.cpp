@@ -35,6 +35,7 @@ void TuneArguments::add_to(CommandLine& line) {
              "so many cameras made to tune on, those given all to test with: each between two of "
              "them drawn by lot, on the line between the centres, turned the shortest way");
   config.add_to(line);
+  config.add_fitting_to(line);
   FittingArguments::add_to(line, "scene to write: .sgs with --quantise, else .ply");
   line.whole("--steps", steps, 1, 1'000'000,
              "a picture each; 3,000 if not given, with --quantise 5,000");

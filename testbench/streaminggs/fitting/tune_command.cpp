@@ -40,7 +40,7 @@ TuningViews views_for(const TuneArguments& arguments, const Scene& scene, Output
 
 int run(const TuneArguments& arguments, const Kinds& kinds) {
   arguments.check();
-  RunConfig config = read_run_config(arguments.config.document(), kinds);
+  RunConfig config = read_run_config(arguments.config, kinds);
   if (config.storage.sh_tolerance > 0) {
     throw InputError(fmt::format("storage.sh_tolerance: got {}, expected 0: tune keeps all bands",
                                  config.storage.sh_tolerance));

@@ -30,6 +30,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Of "key.path".
+Json::json_pointer pointer_to(std::string path) {
+  std::replace(path.begin(), path.end(), '.', '/');
+  return Json::json_pointer("/" + path);
+}
+
 // key: below `storage`. A size left open is whatever the file holds; real ones have that of a
 // float.
 bool agree(const StorageScheme& scheme, const std::string& key, const Json& said,
@@ -54,9 +60,7 @@ std::string compared(const RunConfig& config, const PackedScene& packed, const s
   std::string differs;
   for (const ConfigOrigin& value : config.origins) {
     if (value.path.rfind("storage.", 0) != 0) continue;
-    std::string pointer = "/" + value.path;
-    std::replace(pointer.begin(), pointer.end(), '.', '/');
-    const Json &a = said.at(Json::json_pointer(pointer)), &b = held.at(Json::json_pointer(pointer));
+    const Json &a = said.at(pointer_to(value.path)), &b = held.at(pointer_to(value.path));
     const std::string key = value.path.substr(value.path.find('.') + 1);
     if (agree(scheme_of(packed.storage.order), key, a, b)) continue;
     const std::string got = a.is_string() ? a.get<std::string>() : a.dump();
@@ -83,6 +87,17 @@ std::string place_of(const ConfigOrigin& value, const RunConfig& config) {
     if (is_override(other)) overrides += " " + other.origin;
   }
   return value.origin + (overrides.empty() ? "" : " with") + overrides;
+}
+
+void fit_memories(RunConfig& config) {
+  const Json values = parse_json(to_json(config), "the configuration");
+  for (const char* key : config.design->fit_memories()) {
+    for (const ConfigOrigin& value : config.origins) {
+      if (value.path != key || !is_override(value) || values.at(pointer_to(key)) == 0) continue;
+      throw InputError(
+          fmt::format("{}: got it with --fit-memories, expected one of the two", value.origin));
+    }
+  }
 }
 
 void resolve_machine(RunConfig& config) {
@@ -128,7 +143,8 @@ void naming_origins(const RunConfig& config, const std::function<void()>& act) {
 
 void RunConfig::add_choices(const std::vector<StorageChoice>& choices) {
   for (const StorageChoice& choice : choices) {
-    chosen.push_back({fmt::format("storage.{}", choice.key), choice.value, choice.why});
+    chosen.push_back(
+        {ChoiceKind::kDecided, fmt::format("storage.{}", choice.key), choice.value, choice.why});
   }
 }
 
@@ -151,6 +167,25 @@ RunConfig read_run_config(const ConfigDocument& document, const std::vector<Mach
   config.kinds = &kinds;
   document.read_into(config);
   config.origins = document.origins();
+  return config;
+}
+
+RunConfig read_run_config(const ConfigSource& source, const std::vector<MachineKind>& kinds) {
+  RunConfig config = read_run_config(source.document(), kinds);
+  if (source.fit_memories) fit_memories(config);
+  return config;
+}
+
+RunConfig as_decided(ConfigDocument document, RunConfig& resolved) {
+  const Json values = parse_json(to_json(resolved), "the configuration");
+  Json decided = Json::object();
+  for (const AutoChoice& choice : resolved.chosen) {
+    if (choice.kind != ChoiceKind::kDecided) continue;
+    decided[pointer_to(choice.key)] = values.at(pointer_to(choice.key));
+  }
+  document.add_text(decided.dump(), "what was decided");
+  RunConfig config = read_run_config(document, *resolved.kinds);
+  config.storage = resolved.storage;
   return config;
 }
 

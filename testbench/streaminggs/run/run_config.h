@@ -13,6 +13,7 @@
 #include "modules/config/strict_json.h"
 #include "modules/dram/dram_config.h"
 #include "modules/machine_design.h"
+#include "testbench/command_line/config_source.h"
 
 namespace sgs {
 
@@ -37,6 +38,13 @@ std::string readers_of(const std::vector<MachineKind>& kinds, StorageOrder order
 
 // As the document says; what is left to the model is not resolved yet. Throws InputError.
 RunConfig read_run_config(const ConfigDocument& document, const std::vector<MachineKind>& kinds);
+
+// As a command line says. Throws InputError, also where it sizes a memory that is to be fitted.
+RunConfig read_run_config(const ConfigSource& source, const std::vector<MachineKind>& kinds);
+
+// The document's, with what was decided for `resolved`, which was read from it, and stored as that
+// is. Whatever is derived stays open, and so a key of it can be changed.
+RunConfig as_decided(ConfigDocument document, RunConfig& resolved);
 
 // Runs `act`. An error that refuses a key, by its path or by that below `storage`, then also says
 // where its value is from.

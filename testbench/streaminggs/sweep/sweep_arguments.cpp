@@ -26,6 +26,7 @@ void SweepArguments::add_to(CommandLine& line) {
   line.whole("-j,--jobs", side_by_side, 1, kMostSideBySide,
              "simulations side by side; all cores if not given");
   config.add_to(line);
+  config.add_fitting_to(line);
   line.texts("--cameras", cameras,
              "cameras.json, for all scenes or one for each in their order; built-in scenes bring "
              "their own; may be repeated");

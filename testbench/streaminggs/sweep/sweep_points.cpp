@@ -59,6 +59,16 @@ std::string view_at(const Json& object, const std::string& place) {
   return text_at(object, "view", place);
 }
 
+std::optional<bool> truth_at(const Json& object, const char* key, const std::string& place) {
+  const auto found = object.find(key);
+  if (found == object.end()) return {};
+  if (!found->is_boolean()) {
+    throw InputError(
+        fmt::format("{}: {}: got {}, expected true or false", place, key, shown(*found)));
+  }
+  return found->get<bool>();
+}
+
 std::vector<std::string> overrides_at(const Json& object, const std::string& place) {
   const auto found = object.find("set");
   if (found == object.end()) return {};
@@ -74,10 +84,12 @@ std::vector<std::string> overrides_at(const Json& object, const std::string& pla
 SweepPoint point_of_json(const std::string& line, const std::string& place) {
   const Json object = parse_json(line, place);
   for (const auto& [key, value] : object.items()) {
-    constexpr const char* kKeys[] = {"id", "scene", "cameras", "view", "size", "config", "set"};
+    constexpr const char* kKeys[] = {"id",   "scene",  "cameras",      "view",
+                                     "size", "config", "fit_memories", "set"};
     if (std::find(std::begin(kKeys), std::end(kKeys), key) != std::end(kKeys)) continue;
     throw InputError(fmt::format(
-        "{}: {}: unknown key, expected id, scene, cameras, view, size, config or set", place, key));
+        "{}: {}: unknown key, expected id, scene, cameras, view, size, config, fit_memories or set",
+        place, key));
   }
   SweepPoint point;
   if (const auto id = object.find("id"); id != object.end()) point.id = shown(*id);
@@ -86,6 +98,7 @@ SweepPoint point_of_json(const std::string& line, const std::string& place) {
   point.view = view_at(object, place);
   point.size = text_at(object, "size", place);
   point.config = text_at(object, "config", place);
+  point.fit_memories = truth_at(object, "fit_memories", place);
   point.overrides = overrides_at(object, place);
   return point;
 }

@@ -1,6 +1,7 @@
 // The points that a sweep is to simulate, as its user says them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ struct SweepPoint {
   std::string scene, cameras, view, size;  // as the options of these names
   std::string config;                      // a preset or a file
   std::vector<std::string> overrides;      // "key.path=value", over those of the command line
+  std::optional<bool> fit_memories;        // as the option
   std::string refused;                     // why this is no point at all
 };
 
@@ -21,7 +23,7 @@ std::vector<SweepPoint> grid_of(const std::vector<std::string>& axes);
 
 // A line: "KEY=VALUE KEY=VALUE ...", or a JSON object of
 //   "set"     {"key.path": value, ...}
-//   "id", "scene", "cameras", "view" (a number or text), "size", "config"
+//   "id", "scene", "cameras", "view" (a number or text), "size", "config", "fit_memories" (a truth)
 // each of which may be left out. place: of the line, for messages. Throws InputError.
 SweepPoint parse_point(const std::string& line, const std::string& place);
 

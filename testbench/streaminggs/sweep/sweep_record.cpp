@@ -36,6 +36,7 @@ Json json_of(const PointInWords& point) {
   out["view"] = number ? Json(view) : Json(point.view);
   if (!point.size.empty()) out["size"] = point.size;
   out["config"] = point.config;
+  if (point.fit_memories) out["fit_memories"] = true;
   out["set"] = settings_of(point.overrides);
   return out;
 }
@@ -101,6 +102,7 @@ std::string in_short(const std::string& line) {
   if (point["view"].is_number()) text += " view " + point["view"].dump();
   if (point.contains("size")) text += " " + point["size"].get<std::string>();
   text += " " + point["config"].get<std::string>();
+  if (point.contains("fit_memories")) text += " --fit-memories";
   for (const auto& [key, value] : point["set"].items()) {
     text += " " + key + "=" + (value.is_string() ? value.get<std::string>() : text_of(value));
   }

@@ -15,6 +15,7 @@ constexpr const char* kPointFailed = "failed";
 struct PointInWords {
   std::string scene, cameras, view, size, config;  // empty: not said
   std::vector<std::string> overrides;
+  bool fit_memories = false;
 };
 
 // report: a view's. Kept are the numbers that a comparison of machines asks for: not where each

@@ -13,7 +13,8 @@ namespace sgs {
 namespace {
 
 PointInWords in_words(const SceneArguments& scene, const ConfigSource& config) {
-  return {scene.scene, scene.cameras_path, scene.view, scene.size, config.config, config.overrides};
+  return {scene.scene,   scene.cameras_path, scene.view,         scene.size,
+          config.config, config.overrides,   config.fit_memories};
 }
 
 const std::string& either(const std::string& said, const std::string& otherwise) {
@@ -63,7 +64,7 @@ std::vector<std::string> SweepPlan::check_scenes() {
 }
 
 RunConfig SweepPlan::resolved(const SweepTask& task) const {
-  RunConfig config = read_run_config(task.config.document(), kinds_);
+  RunConfig config = read_run_config(task.config, kinds_);
   config.design->fit_frames([&] {
     return std::vector<PixelSize>{{task.camera.width, task.camera.height}};
   });
@@ -95,7 +96,8 @@ void SweepPlan::resolve_and_name(SweepTask& task) const {
 std::vector<SweepTask> SweepPlan::tasks_of(const SweepPoint& point) {
   SweepTask base;
   base.id = point.id;
-  base.config = {either(point.config, defaults_.config.config), defaults_.config.overrides};
+  base.config = {either(point.config, defaults_.config.config), defaults_.config.overrides,
+                 point.fit_memories.value_or(defaults_.config.fit_memories)};
   base.config.overrides.insert(base.config.overrides.end(), point.overrides.begin(),
                                point.overrides.end());
   const auto refused = [&](const SceneArguments& scene, const std::string& why) {

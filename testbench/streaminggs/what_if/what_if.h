@@ -14,7 +14,7 @@ namespace sgs {
 
 // A frame's time and price.
 struct Outcome {
-  std::uint64_t cycles = 0;
+  std::uint64_t cycles = 0, bus_bytes = 0;
   double joules = 0, mm2 = 0;
   Binding binding;
 };

@@ -31,20 +31,16 @@ struct WhatIfArguments : SceneArguments {
   std::string out;  // JSON; empty: the terminal alone
 };
 
-// Keys that stay as they were decided for the frame. All else that the configuration leaves open
-// follows anew from the doubled value: on-chip memories, depths of pipelines.
-constexpr const char* kDecided[] = {"/group_width_px", "/group_height_px", "/storage"};
-
 // A scene, and a machine for it.
 struct Base {
-  std::string document;  // the configuration, with what is decided
+  std::string document;  // the configuration, with what was decided for the frame
   std::string resolved;  // and with all that was chosen
   PreparedScene scene;
   Technology technology;
   const Kinds* kinds = nullptr;
 
-  // The configuration with one value changed; empty: as it is. Throws InputError where it cannot
-  // be.
+  // The configuration with one value changed; empty: as it is. What is derived follows anew, and
+  // memories become as large as that takes. Throws InputError where it cannot be.
   RunConfig variant(const std::string& assignment) const {
     ConfigDocument changed;
     changed.add_text(document, "the configuration");
@@ -78,7 +74,7 @@ FrameResult run(const Base& base, const RunConfig& config, const Camera& camera,
 }
 
 Outcome outcome_of(const FrameResult& frame, const Technology& technology) {
-  return {frame.cycles, energy_of(frame, technology).total.middle,
+  return {frame.cycles, frame.memory.bus_bytes, energy_of(frame, technology).total.middle,
           area_of(frame, technology).total.middle, find_binding(frame)};
 }
 
@@ -113,11 +109,9 @@ void print(const Outcome& base, const std::vector<Doubling>& doublings) {
 }
 
 Json to_json(const Outcome& outcome) {
-  return {{"cycles", outcome.cycles},
-          {"energy_j", outcome.joules},
-          {"area_mm2", outcome.mm2},
-          {"holds", outcome.binding.holds},
-          {"holds_key", outcome.binding.remedy.key}};
+  return {{"cycles", outcome.cycles},       {"bus_bytes", outcome.bus_bytes},
+          {"energy_j", outcome.joules},     {"area_mm2", outcome.mm2},
+          {"holds", outcome.binding.holds}, {"holds_key", outcome.binding.remedy.key}};
 }
 
 Json to_json(int view, const Outcome& base, const std::vector<Doubling>& doublings,
@@ -179,9 +173,8 @@ Json run_view(const Base& base, int number, const Camera& camera) {
 int run(const WhatIfArguments& arguments, const Kinds& kinds) {
   Base base;
   base.kinds = &kinds;
-  RunConfig config = read_run_config(arguments.config.document(), kinds);
+  RunConfig config = read_run_config(arguments.config, kinds);
   std::optional<PackedScene> packed = arguments.load_packed();
-  Json document = Json::parse(to_json(config));
   config.design->fit_frames([&] { return arguments.frame_sizes(); });
   if (packed) {
     resolve(config, *packed, arguments.scene, arguments.config.preset_in_words());
@@ -208,12 +201,8 @@ int run(const WhatIfArguments& arguments, const Kinds& kinds) {
     base.scene = prepare(std::move(scene), config, weighing, CodebookCache(arguments.cache));
   }
   base.resolved = to_json(config);
-  const Json resolved = Json::parse(base.resolved);
-  for (const char* at : kDecided) {
-    const Json::json_pointer key(at);
-    if (resolved.contains(key)) document[key] = resolved[key];
-  }
-  base.document = document.dump();
+  RunConfig decided = as_decided(arguments.config.document(), config);
+  base.document = to_json(decided);
   Json report = Json::array();
   for (const auto& [number, camera] : views) report.push_back(run_view(base, number, camera));
   if (!arguments.out.empty()) {
@@ -233,6 +222,7 @@ SubCommand add_what_if_command(CommandLine& line, const Kinds& kinds) {
   arguments->add_cache_to(line);
   arguments->config.config = kinds.front().name;
   arguments->config.add_to(line);
+  arguments->config.add_fitting_to(line);
   line.file("--technology", arguments->technology, "table of energy and area");
   line.file("--out", arguments->out, "write the table as JSON");
   return [arguments, &kinds] { return run(*arguments, kinds); };

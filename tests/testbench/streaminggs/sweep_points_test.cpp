@@ -41,7 +41,8 @@ TEST_CASE("sweep points: a list has words, JSON, comments and empty lines") {
       "points",
       "# which\n\n  a=1  b=x # why\r\n"
       "{\"id\": {\"n\": 1}, \"set\": {\"a.b\": [1, 2], \"c\": \"t#\", \"d\": true}, \"view\": 3,"
-      " \"size\": \"4x4\", \"scene\": \"s.ply\", \"cameras\": \"c.json\", \"config\": \"paper\"}");
+      " \"size\": \"4x4\", \"scene\": \"s.ply\", \"cameras\": \"c.json\", \"config\": \"paper\","
+      " \"fit_memories\": true}");
   const std::vector<SweepPoint> points = read_points(path);
   REQUIRE(points.size() == 2);
   CHECK((points[0].overrides == Words{"a=1", "b=x"}));
@@ -52,6 +53,8 @@ TEST_CASE("sweep points: a list has words, JSON, comments and empty lines") {
   CHECK(points[1].scene == "s.ply");
   CHECK(points[1].cameras == "c.json");
   CHECK(points[1].config == "paper");
+  CHECK(points[1].fit_memories == true);
+  CHECK_FALSE(points[0].fit_memories.has_value());
 }
 
 TEST_CASE("sweep points: a line that is no point says where and what was expected") {

@@ -16,7 +16,8 @@ void ToyDesign::resolve(const StorageConfig&, std::vector<AutoChoice>& chosen) {
     throw InputError(fmt::format("fetch.block_gaussians: got {}, expected whole bursts of 32 B",
                                  config_.fetch.block_gaussians));
   }
-  chosen.push_back({"toy.blocks", static_cast<double>(config_.fetch.buffer_blocks),
+  chosen.push_back({ChoiceKind::kDerived, "toy.blocks",
+                    static_cast<double>(config_.fetch.buffer_blocks),
                     "as many as the configuration says"});
 }
 
