@@ -13,9 +13,10 @@ each scene, KEY@SCENE=... one for a single scene. With --search configurations a
 from the preset along the axes (steps), or proposed by Optuna, between them those next to the best
 ones; --machine adds the axes of an order's machine (exploring/axes.py) and begins at its preset.
 --recipe stands for options, which the command line changes (exploring/recipes). --config takes any
-machine, a tile-centric one (gscore) as well. Every configuration gets as much on-chip memory as it
-needs, but for codebooks, unless --set, --axis or the list say how much: memory is what it costs,
-not what stops it, and no other size follows from it. Tables show what was simulated: values as the
+machine, a tile-centric one (gscore) as well. Every exploration begins at the machine that `simulate`
+runs: what memories decide there (groups, lists) stays for every configuration, and each gets as much
+on-chip memory as it needs (--fit-memories), but for codebooks. Where --set, --axis or the list size a
+memory, that size stands, and decides. Tables show what was simulated: values as the
 resolved configuration has them, the size of the pixel group always among them: `group=SHAPE` stands
 for both of its sides.
 
@@ -52,6 +53,7 @@ from __future__ import annotations
 
 import argparse
 import concurrent.futures
+import dataclasses
 import functools
 import json
 import os
@@ -61,7 +63,7 @@ from collections.abc import Iterable, Sequence
 
 from results import draw_beside
 from exploring import options
-from exploring.axes import ORDERS, Axis, label, of_scene
+from exploring.axes import ORDERS, Axis, key_of, label, of_scene, sizes_memory
 from exploring.exploration import Exploration, Work
 from exploring.judging import SMALL, SMALL_SIZE, Assignments, Judge, Task, relative_to
 from exploring.measures import NAMES, Objective, objective, requirement, shown, value_at
@@ -77,10 +79,10 @@ from runs.simulations import (
     expanded,
     read_config,
     simulate,
-    sram_as_needed,
     view_numbers_there,
 )
 from runs.sweep_server import SweepServer
+from streaminggs import numbers
 
 RUNS_FILE = "explore_runs.jsonl"
 SAMPLERS = ("tpe", "nsga2", "random")
@@ -170,11 +172,35 @@ def find_task(
         keys=tuple(dict.fromkeys([*keys, *((GROUP,) if GROUP_KEYS[0] in config else ())])),
         size=arguments.size,
         config=arguments.config,
-        base=expanded((*sram_as_needed(config), *fixed, *arguments.set)),
+        base=expanded((*fixed, *arguments.set)),
         objectives=objectives_of(arguments.objectives or default_objectives(config)),
         requirements=tuple(map(requirement, arguments.require)),
         shown=shown(arguments.show),
+        open_memories=tuple(f"sram.{key}=0" for key in config["sram"] if key != "codebook_bytes"),
     )
+
+
+def with_decided(task: Task, binary: pathlib.Path, view: str, config: dict) -> Task:
+    """What the beginning's memories decide stays for all configurations. Raises ValueError where
+    they cannot."""
+    if sizes_memory(task.base):
+        return task
+    left_open = {key_of(each) for each in task.base if each.endswith("=0")}
+
+    def decided_for(scene: Scene) -> Assignments:
+        begin = Run(scene, view, task.size, task.config, task.base, fit_memories=True)
+        told = numbers(read_config(binary, begin)).items()
+        return tuple(
+            f"{key}={value}"
+            for key, value in told
+            if value and (key in left_open or value_at(config, key) == 0)
+        )
+
+    scenes = dict.fromkeys(scene for scene, _ in task.views)
+    found = {label(scene.name): decided_for(scene) for scene in scenes}
+    # The smallest frame there is shows another scene.
+    machine = tuple(a for a in next(iter(found.values())) if not a.startswith("storage."))
+    return dataclasses.replace(task, decided={**found, "": machine})
 
 
 def explore_all(work: Work) -> None:
@@ -238,6 +264,7 @@ def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Seque
     keys = [*space.keys(), *Space((Axis("", tuple(beside)),)).keys()] if beside else space.keys()
     task = find_task(arguments, scenes, keys, fixed, config)
     options.check_search(arguments.search, task)
+    task = with_decided(task, arguments.streaminggs, arguments.view, config)
     task = relative_to(task, kept.outcomes)
     judge = Judge(task, kept.outcomes)
     work = Work(arguments, space, judge, Exploration(task, beside))

@@ -6,7 +6,7 @@ scenes and their pictures prepared once, and makes a table of them.
   import sys; sys.path.insert(0, "scripts")
   import streaminggs
   small, large = (
-      streaminggs.run("builtin:object?n=20000", settings={"hfus": hfus, **streaminggs.FITTED})[0]
+      streaminggs.run("builtin:object?n=20000", settings={"hfus": hfus}, fit_memories=True)[0]
       for hfus in (2, 8)
   )
   print(small["frame"]["cycles"], large["frame"]["cycles"])
@@ -14,7 +14,7 @@ scenes and their pictures prepared once, and makes a table of them.
       print(f"{key}: {before} -> {after}")
   streaminggs.table([small, large])[["config.hfus", "frame.cycles", "area_mm2.total"]]  # pandas
   points = streaminggs.grid({"hfus": [2, 4, 8], "hfu.ffu_lanes": [8, 16]})
-  streaminggs.sweep(points, ["builtin:object"], settings=streaminggs.FITTED)
+  streaminggs.sweep(points, ["builtin:object"], fit_memories=True)
 """
 
 from __future__ import annotations
@@ -35,9 +35,6 @@ from reporting.folder import find_runs
 Failure = simulations.Failure
 Settings = Mapping[str, object]  # keys of the configuration
 
-# On-chip memories as large as the rest of the configuration needs.
-FITTED = dict(assignment.split("=") for assignment in simulations.SRAM_AS_NEEDED)
-
 
 def run(
     scene: str | pathlib.Path,
@@ -47,6 +44,7 @@ def run(
     size: str = "",
     config: str | pathlib.Path = "exact",
     settings: Settings | None = None,
+    fit_memories: bool = False,
     out: str | pathlib.Path | None = None,
     program: str | pathlib.Path = simulations.BINARY,
 ) -> list[dict]:
@@ -54,7 +52,8 @@ def run(
 
     scene: builtin:NAME?n=COUNT, a real scene of ../shared by name, or a file with its cameras
     beside it, or with `cameras`. view: a number, "0,2" or "all". size: "WxH". settings: keys of the
-    configuration over those of `config`. out: a folder that keeps pictures and reports.
+    configuration over those of `config`. fit_memories: as the option, on-chip memories as large as
+    all else needs. out: a folder that keeps pictures and reports.
 
     Raises ValueError for what the command refuses, Failure where a simulation ends badly or a frame
     is not the model's.
@@ -63,7 +62,8 @@ def run(
         found = Scene(pathlib.Path(scene).stem, str(scene), str(cameras))
     else:
         found = find_scene(str(scene))
-    job = simulations.Run(found, str(view), size, str(config), assignments(settings or {}))
+    own = assignments(settings or {})
+    job = simulations.Run(found, str(view), size, str(config), own, fit_memories)
     if out is None:
         outcome = simulations.simulate(pathlib.Path(program), job)
     else:
@@ -102,6 +102,7 @@ def sweep(
     size: str = "",
     config: str | pathlib.Path = "exact",
     settings: Settings | None = None,
+    fit_memories: bool = False,
     jobs: int = os.cpu_count() or 1,
     results: str | pathlib.Path | None = None,
     program: str | pathlib.Path = simulations.BINARY,
@@ -111,9 +112,10 @@ def sweep(
     the numbers of its report by their paths. A pandas data frame where there is pandas (Debian's
     python3-pandas), else a list of dictionaries with these columns.
 
-    points: settings over `settings`, which are over those of `config`; scenes, views, size: as
-    run() has them. jobs: simulations side by side. results: a file of JSON lines, which keeps what
-    was simulated and of which nothing is simulated again; without it nothing is kept.
+    points: settings over `settings`, which are over those of `config`; scenes, views, size,
+    fit_memories: as run() has them. jobs: simulations side by side. results: a file of JSON lines,
+    which keeps what was simulated and of which nothing is simulated again; without it nothing is
+    kept.
 
     Raises ValueError for arguments that are none, Failure where the command itself fails.
     """
@@ -124,10 +126,10 @@ def sweep(
     binary = pathlib.Path(program)
     found = [find_scene(str(scene)) for scene in scenes]
     cases = [
-        (point, simulations.Run(scene, str(view), size, str(config), base + assignments(point)))
-        for base in [assignments(settings or {})]
+        (point, simulations.Run(scene, str(view), size, str(config), own, fit_memories))
         for scene in found
         for point in points
+        for own in [assignments(settings or {}) + assignments(point)]
         for view in view_numbers(binary, scene, str(views))
     ]
     with tempfile.TemporaryDirectory(prefix="streaminggs-") as folder:

@@ -52,6 +52,12 @@ def unscoped(assignment: str) -> str:
     return f"{key_of(assignment)}={assignment.partition('=')[2]}"
 
 
+def sizes_memory(assignments: Assignments) -> bool:
+    """But for codebooks', which is none that follows from other keys."""
+    memories = [key for key in map(key_of, assignments) if key.startswith("sram.")]
+    return any(key != "sram.codebook_bytes" for key in memories)
+
+
 def of_scene(assignments: Assignments, scope: str) -> Assignments:
     """What holds for a scene, as the command takes it."""
     return tuple(unscoped(a) for a in assignments if scope_of(a) in ("", scope))

@@ -7,9 +7,10 @@ import dataclasses
 import functools
 import math
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from exploring.axes import Assignments, Axis, key_of, label, nearest, of_scene, scope_of
+from exploring.axes import sizes_memory
 from exploring.measures import EACH, Measure, Objective, Requirement, value_at
 from exploring.space import At, Space
 from runs.scenes import Scene
@@ -58,7 +59,8 @@ class Judged:
 @dataclasses.dataclass(frozen=True)
 class Task:
     """What a configuration is judged by. base: what all of them have set, which a configuration
-    may set anew."""
+    may set anew; so it may what the beginning's memories decided, by label of a scene, and "" for
+    the first one's machine. open_memories: settings that size none."""
 
     views: tuple[View, ...]
     keys: tuple[str, ...]  # of the settings to be shown
@@ -68,13 +70,26 @@ class Task:
     objectives: tuple[Objective, ...]
     requirements: tuple[Requirement, ...]
     shown: tuple[Measure, ...] = ()  # that nothing is judged by
+    decided: Mapping[str, Assignments] = dataclasses.field(default_factory=dict)
+    open_memories: Assignments = ()
 
     def run(self, scene: Scene, view: int, assignments: Assignments) -> Run:
-        own = (*self.base, *of_scene(assignments, label(scene.name)))
-        return Run(scene, str(view), self.size, self.config, own)
+        own = of_scene(assignments, label(scene.name))
+        run = Run(scene, str(view), self.size, self.config)
+        return self.with_memories(run, self.decided.get(label(scene.name), ()), own)
 
     def small_run(self, assignments: Assignments) -> Run:
-        return Run(SMALL, "0", SMALL_SIZE, self.config, (*self.base, *assignments))
+        run = Run(SMALL, "0", SMALL_SIZE, self.config)
+        return self.with_memories(run, self.decided.get("", ()), assignments)
+
+    def with_memories(self, run: Run, decided: Assignments, own: Assignments) -> Run:
+        """As large as the configuration needs; but where it sizes one itself, which then decides
+        what is left open."""
+        if sizes_memory(self.base) or sizes_memory(own):
+            sized = (*self.open_memories, *self.base, *own)
+            return dataclasses.replace(run, overrides=sized)
+        fitted = (*self.base, *decided, *own)
+        return dataclasses.replace(run, overrides=fitted, fit_memories=True)
 
     def of_the_machine(self) -> bool:
         """Whether everything that is to be made small is known without a frame."""

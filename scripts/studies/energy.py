@@ -23,7 +23,6 @@ from runs import run_arguments
 from runs.scenes import find_scenes, shared_names
 from runs.simulations import (
     MJ,
-    SRAM_AS_NEEDED,
     Outcome,
     Run,
     asked_mb,
@@ -162,11 +161,11 @@ def make(arguments: argparse.Namespace) -> None:
 
     def runs_of(cases: Sequence[tuple[str, Sequence[str]]]) -> list[Run]:
         """Of all scenes, by preset and what is set."""
-        words = (*SRAM_AS_NEEDED, SAME_COST)
         return [
             Run(
                 *(scene, arguments.view, arguments.size, preset),
-                (*words, *overrides, *arguments.set),
+                (SAME_COST, *overrides, *arguments.set),
+                fit_memories=True,
             )
             for preset, overrides in cases
             for scene in scenes

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import argparse
 import csv
+import dataclasses
 import os
 import pathlib
 import sys
@@ -113,7 +114,10 @@ def accepted(outcome: Outcome) -> Sequence[dict]:
 def swept_frames(scene: Scene, arguments: argparse.Namespace) -> Iterator[tuple[tuple, dict]]:
     """Rows, and the reports that they are of."""
     cases = points(subjects.voxel_of_preset(arguments.streaminggs, scene.spec))
-    runs = [Run(scene, arguments.view, arguments.size, p.config(), p.overrides()) for p in cases]
+    runs = [
+        Run(scene, arguments.view, arguments.size, p.config(), p.overrides(), fit_memories=True)
+        for p in cases
+    ]
     # A server for each scene: it holds all ways in which points want their scene stored.
     for point, outcome in zip(cases, swept(arguments, "error_image", runs)):
         for view in accepted(outcome):
@@ -133,8 +137,11 @@ def tuned_frames(scene: Scene, arguments: argparse.Namespace) -> Iterator[tuple[
     as_preset = Point(PAPER, "tuning", "before", ())
     states = (("before", scene.spec), ("after", str(fitted.scene)))
     runs = [
-        judged.run(
-            f"{scene.name} {state}", spec, arguments.view, PRESETS[PAPER], as_preset.overrides()
+        dataclasses.replace(
+            judged.run(
+                f"{scene.name} {state}", spec, arguments.view, PRESETS[PAPER], as_preset.overrides()
+            ),
+            fit_memories=True,
         )
         for state, spec in states
     ]
@@ -169,7 +176,7 @@ def tuning(scene: Scene, rate: float, arguments: argparse.Namespace) -> Fitting:
     size, between = arguments.tuning_size, arguments.between
     subject = Subject(scene.name, scene.spec, scene.cameras, size, between)
     words = (scene.spec, "--boundary", "--config", subjects.PAPER, "--beta", "0")
-    words += subjects.set_words(("rendering.precision=fp32", "sram.shared_bytes=0"))
+    words += subjects.tuned_in("fp32")
     words += (*subject.target_words(), "--rate", f"{rate:g}", *looks_every(arguments.steps))
     return Fitting(f"{scene.name} short rate {rate:g}", "tune", words)
 

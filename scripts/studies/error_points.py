@@ -6,7 +6,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterator
 
-from runs.simulations import SRAM_AS_NEEDED, group_assignments
+from runs.simulations import group_assignments
 
 EXACT, PAPER, TILES = "exact", "paper", "tiles"
 PRESETS = {EXACT: "exact", PAPER: "paper_no_vq", TILES: "gscore_fp32_keys"}
@@ -20,7 +20,7 @@ AS_PRESET = "as the preset"
 
 @dataclasses.dataclass(frozen=True)
 class Point:
-    """knob: what is moved, value: where to. settings: over preset and base."""
+    """knob: what is moved, value: where to. settings: over preset and base; memories are fitted."""
 
     order: str
     knob: str
@@ -32,8 +32,7 @@ class Point:
         return self.preset or PRESETS[self.order]
 
     def overrides(self) -> tuple[str, ...]:
-        groups = () if self.order == TILES else SRAM_AS_NEEDED
-        return (*groups, FLOATS, *self.settings)
+        return (FLOATS, *self.settings)
 
 
 def blended(precision: str) -> str:

@@ -10,7 +10,7 @@ import results
 from results import PSNR, SCENE, VIEW, Column, Spread
 from runs import run_arguments
 from runs.scenes import find_scenes
-from runs.simulations import SRAM_AS_NEEDED, Run, decibels
+from runs.simulations import Run, decibels
 from runs.sweep_server import swept
 
 # Stage: preset, and the keys that put it into half. Records of projected features and depth keys go
@@ -40,7 +40,8 @@ def make(arguments: argparse.Namespace) -> None:
             arguments.view,
             arguments.size,
             preset,
-            ("framebuffer=rgb32f", *(SRAM_AS_NEEDED if preset == "exact" else ()), setting),
+            ("framebuffer=rgb32f", setting),
+            fit_memories=True,
         )
         for scene in scenes
         for preset, setting in STAGES.values()

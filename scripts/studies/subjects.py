@@ -21,6 +21,7 @@ from runs import run_arguments
 from runs.keeper import Fitting, Keeper, KeptFittings
 from runs.scenes import Scene, find_scene, shared_folder
 from runs.simulations import (
+    FIT_MEMORIES,
     MJ,
     Run,
     answered,
@@ -116,8 +117,8 @@ class Tunings:
         return (f"storage.voxel_size={voxel:g}", *self.paper_set)
 
     def tuned_in(self) -> tuple[str, ...]:
-        """For --set of a tuning for paper order: a precision, and the memory that it needs."""
-        return set_words((f"rendering.precision={self.precision}", "sram.shared_bytes=0"))
+        """Of a tuning for paper order: a precision, and the memory that it needs."""
+        return tuned_in(self.precision)
 
     def boundary(self, subject: Subject, voxel: float, beta: float) -> Fitting:
         words = (subject.scene, "--boundary", "--config", PAPER)
@@ -156,6 +157,10 @@ def in_reference_order(subject: Subject, price: float, steps: int, rate: float) 
         words += ("--rate", f"{rate:g}")
         label += f" rate {rate:g}"
     return Fitting(label, "tune", words)
+
+
+def tuned_in(precision: str) -> tuple[str, ...]:
+    return (FIT_MEMORIES, *set_words((f"rendering.precision={precision}",)))
 
 
 def set_words(settings: tuple[str, ...]) -> tuple[str, ...]:

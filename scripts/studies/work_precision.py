@@ -10,6 +10,7 @@ shared on-chip memory that it needs; the column `shared SRAM B` says what that i
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import itertools
 import sys
 
@@ -19,7 +20,6 @@ from runs import run_arguments
 from runs.scenes import find_scenes
 from runs.simulations import (
     MB,
-    SRAM_AS_NEEDED,
     Run,
     asked_mb,
     cycles,
@@ -111,10 +111,13 @@ def add_arguments(to: run_arguments.Parser) -> None:
 
 def make(arguments: argparse.Namespace) -> None:
     scenes = find_scenes(arguments.scenes)
-    base = (*SRAM_AS_NEEDED, *arguments.set)
-    preset = resolved_config(arguments.streaminggs, Run(scenes[0], overrides=base))
+    given = tuple(arguments.set)
+    base = Run(scenes[0], overrides=given, fit_memories=True)
+    preset = resolved_config(arguments.streaminggs, base)
     runs = [
-        Run(scene, arguments.view, overrides=(*base, *overrides(point, preset)))
+        dataclasses.replace(
+            base, scene=scene, view=arguments.view, overrides=(*given, *overrides(point, preset))
+        )
         for scene in scenes
         for point in combinations(preset, arguments.cross)
     ]

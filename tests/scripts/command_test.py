@@ -1,5 +1,6 @@
 """Every script makes its tables with the command; skipped where $STREAMINGGS does not name it."""
 
+import csv
 import pathlib
 import subprocess
 import unittest
@@ -13,6 +14,7 @@ from studies import compare_variants
 from studies import energy
 from studies import error_against_time
 from studies import fair_fight
+from exploring.measures import value_at
 import explore
 import results
 from studies import half_by_stage
@@ -234,32 +236,49 @@ class WithTheCommand(InFolder):
         self.assertEqual(len(list((self.folder / "kept").glob("fittings/*_seed_*"))), 4)
         self.assertEqual(len(list((self.folder / "kept").glob("fittings/*/scene.*"))), 4 + 7)
 
-    def test_memory_is_as_large_as_needed(self):
+    def test_an_exploration_begins_at_the_machine_that_simulate_runs(self):
+        """What memories decide there stays when a key changes."""
         scene = find_scene(str(self.scene))
-        streaming = (("hfus=1", "group_width_px=48"), ("input", "shared"))
-        for config, (settings, memories) in (
-            ("exact", streaming),
-            ("paper_no_vq", streaming),
-            ("gscore", (("cores=2",), ("buffer",))),
+        listed = ("lists.tiles", "lists.lines", "sorting.list_entries")
+        open_group = ("group_width_px=0", "group_height_px=0")
+        for config, key, values, decided, settings in (
+            ("exact", "hfus", (4, 8), (), ()),
+            ("exact", "hfus", (4, 8), ("group_width_px", "group_height_px"), open_group),
+            ("paper_no_vq", "hfus", (4, 8), ("storage.voxel_size",), ()),
+            ("gscore_lossless", "cores", (4, 8), listed, ()),
         ):
-            with self.subTest(config):
-                (view,) = simulations.simulate(
-                    pathlib.Path(COMMAND), simulations.Run(scene, config=config)
-                ).accepted()
-                overrides = (*simulations.sram_as_needed(view["config"]), *settings)
+            with self.subTest(config, decided=decided):
+                overrides = (f"{key}={values[0]}", *settings)
                 run = simulations.Run(scene, config=config, overrides=overrides)
                 (view,) = simulations.simulate(pathlib.Path(COMMAND), run).accepted()
-                for memory in memories:
-                    needed = view["sram"][f"{memory}_bytes"]
-                    self.assertGreater(needed, 0)
-                    self.assertEqual(needed, view["sram"][f"{memory}_available_bytes"])
-                    self.assertEqual(needed, view["config"]["sram"][f"{memory}_bytes"])
+                status, said, _ = self.ended(
+                    *(explore, str(self.scene), "--streaminggs", COMMAND, "--config", config),
+                    *("--out", str(self.folder / "out"), "-j", "1"),
+                    *(word for setting in settings for word in ("--set", setting)),
+                    *("--axis", f"{key}={values[0]},{values[1]}"),
+                    *("--objectives", "cycles,dram.bus_bytes,joules,mm2"),
+                    *("--show", ",".join(f"config.{each}" for each in decided)),
+                )
+                self.assertEqual(status, 0, said)
+                table = (self.folder / "out" / "explore.csv").read_text().splitlines()
+                begin, changed = csv.DictReader(table)
+                self.assertEqual(int(begin["cycles"]), view["frame"]["cycles"])
+                self.assertEqual(int(begin["dram.bus_bytes"]), view["dram"]["bus_bytes"])
+                self.assertEqual(float(begin["joules"]), view["energy"]["total_j"])
+                self.assertEqual(float(begin["mm2"]), view["area_mm2"]["total"])
+                for each in decided:
+                    value = value_at(view["config"], each)
+                    for row in (begin, changed):
+                        self.assertEqual(float(row[f"config.{each}"]), value)
 
     def test_what_the_command_refuses(self):
         for script, arguments, line in (
             (explore, ("--axis", "hfus=2", "--config", "nope"), "--config nope: no file"),
             (explore, ("--axis", "hfus=2", "--view", "99"), "--view: got '99'"),
-            (explore, ("--axis", "group=0"), "group_width_px: got 0 with sram.shared_bytes 0"),
+            (
+                *(explore, ("--axis", "group=0", "--set", "sram.shared_bytes=0")),
+                "group_width_px: got 0 with sram.shared_bytes 0",
+            ),
             (explore, ("--axis", "group=1x2x3"), "group: '1x2x3', expected"),
             (energy, ("--groups", "wide"), "group: 'wide', expected"),
             (explore, ("--axis", "hfu=2"), "--set hfu=2: "),

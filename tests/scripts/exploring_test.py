@@ -52,13 +52,16 @@ class Exploring(Explorations):
     def test_memory_is_as_large_as_needed_unless_it_is_said(self):
         body = """
             with (HERE / "sram").open("a") as file:
-                print(SET["sram.input_bytes"], SET["sram.shared_bytes"], file=file)
+                memories = [f"{key}={SET[key]}" for key in SET if key.startswith("sram.")]
+                print("--fit-memories" in sys.argv, *memories, file=file)
             finish()
             """
         self.explore(body, "--axis", "hfus=2")
         self.explore(body, "--axis", "hfus=2", "--set", "sram.shared_bytes=900")
         self.explore(body, "--axis", "hfus=2", "--axis", "sram.shared_bytes=700")
-        self.assertEqual((self.folder / "sram").read_text(), "0 0\n0 900\n0 700\n")
+        sized = "sram.input_bytes=0 sram.shared_bytes="
+        lines = ["True", f"False {sized}900", f"False {sized}700"]
+        self.assertEqual((self.folder / "sram").read_text().splitlines(), lines)
 
     def test_a_refused_configuration_is_named_and_left_out(self):
         body = """

@@ -195,9 +195,9 @@ class Words(InFolder):
 
     def test_settings_of_paper_order_reach_its_tuning_alone(self):
         subject = Subject("b", "b.ply", dataset="b")
-        words = "--set rendering.precision=fp16 --set sram.shared_bytes=0 "
+        words = "--fit-memories --set rendering.precision=fp16 "
         words += "--set storage.voxel_size=0.5 --set vsu.ray_step_px=1"
-        self.assertEqual(" ".join(self.CALLS.boundary(subject, 0.5, 0.05).words[4:12]), words)
+        self.assertEqual(" ".join(self.CALLS.boundary(subject, 0.5, 0.05).words[4:11]), words)
         self.assertNotIn("--set", self.CALLS.streaming(subject, 0.1).words)
 
     def test_steps_alone_are_as_many_and_as_long(self):

@@ -127,6 +127,7 @@ class InFolder(unittest.TestCase):
                 with tempfile.TemporaryDirectory() as out:
                     words = [__file__, "simulate", "--view", str(point["view"]), "--out", out]
                     words += ["--size", point["size"]] if "size" in point else []
+                    words += ["--fit-memories"] if point.get("fit_memories") else []
                     for key, value in point["set"].items():
                         words += ["--set", f"{{key}}={{value}}"]
                     environment = {{**os.environ, "SCRIPT": str(os.getppid())}}

@@ -65,7 +65,7 @@ class Running(InFolder):
         return streaminggs.run(str(self.scene), size="64x36", program=COMMAND, **more)
 
     def test_what_it_runs_it_loads(self):
-        settings = {"hfus": 2, "rendering.ellipse_test": False, **streaminggs.FITTED}
+        settings = {"hfus": 2, "rendering.ellipse_test": False}
         views = self.run_one(settings=settings, out=self.folder / "out")
         self.assertEqual(views, streaminggs.load(self.folder / "out"))
         self.assertEqual(views[0]["config"]["hfus"], 2)
@@ -75,6 +75,27 @@ class Running(InFolder):
         self.assertEqual(streaminggs.diff(views[0], again), [])
         (other,) = self.run_one(settings=settings | {"hfus": 4})
         self.assertIn(("config.hfus", 2, 4, 1.0), streaminggs.diff(again, other))
+
+    def test_memories_are_fitted(self):
+        for config, settings in (
+            ("exact", {"hfus": 8}),
+            ("paper_no_vq", {"hfus": 8}),
+            ("gscore", {"cores": 2}),
+        ):
+            with self.subTest(config):
+                given = {"config": config, "settings": settings, "fit_memories": True}
+                (view,) = self.run_one(**given)
+                memories = [key for key in view["config"]["sram"] if key != "codebook_bytes"]
+                for memory in memories:
+                    needed = view["sram"][memory]
+                    self.assertGreater(needed, 0)
+                    self.assertEqual(view["config"]["sram"][memory], needed)
+                    available = memory.replace("_bytes", "_available_bytes")
+                    self.assertEqual(view["sram"][available], needed)
+                (row,) = self.sweep([settings], config=config, fit_memories=True)
+                self.assertEqual(row["sram." + memories[0]], view["sram"][memories[0]])
+        with self.assertRaisesRegex(ValueError, "sram.shared_bytes=9: got it with --fit-memories"):
+            self.run_one(settings={"sram.shared_bytes": 9}, fit_memories=True)
 
     def test_cameras_may_lie_elsewhere(self):
         cameras = self.scene.with_suffix(".json").rename(self.folder / "elsewhere.json")
@@ -100,10 +121,10 @@ class Running(InFolder):
         points = streaminggs.grid(axes)
         results, config = self.folder / "sweep.jsonl", self.folder / "mine.json"
         config.write_text('{"machine": "exact"}')
-        more = {"settings": streaminggs.FITTED, "config": config}
+        more = {"fit_memories": True, "config": config}
         rows = self.sweep(points, results=results, **more)
         for point, row in zip(points, rows, strict=True):
-            (view,) = self.run_one(settings={**streaminggs.FITTED, **point}, config=config)
+            (view,) = self.run_one(settings=point, fit_memories=True, config=config)
             told = streaminggs.numbers(view)
             for path in ("frame.cycles", "dram.bytes", "area_mm2.total", "energy.total_j"):
                 self.assertEqual(row[path], told[path])
