@@ -24,7 +24,8 @@ COLUMNS = (
     Column("its doubling saves", "share of the frame's cycles; empty: not doubled", "", ".1%"),
     Column("gains most", "key whose doubling saves most"),
     Column("that saves", "share of the frame's cycles", "", ".1%"),
-    Column("named gains most", "whether the two are one, or save the same"),
+    Column("named gains most", "whether the two are one, or save the same but for noise"),
+    Column("noise", "those of the two that save no more than the noise of a frame"),
     Column("why not", "verdict of what-if"),
 )
 
@@ -36,10 +37,12 @@ def row(scene: str, answer: dict) -> tuple:
     best = max(gains, key=gains.get, default="")
     right = answer["named_gains_most"]
     base = answer["base"]
+    noise = {each["key"] for each in doubled if each["time_below_noise"]}
+    noisy = [key for key in dict.fromkeys((base["holds_key"], best)) if key in noise]
     return (
         *(scene, answer["view"], base["cycles"] / 1e6),
         *(base["holds_key"], gains.get(base["holds_key"]), best, gains.get(best)),
-        *(right, "" if right else answer["verdict"]),
+        *(right, ", ".join(noisy), "" if right else answer["verdict"]),
     )
 
 
@@ -73,6 +76,6 @@ def make(arguments: argparse.Namespace) -> None:
             pool.shutdown(cancel_futures=True)
     provenance = {"commit": program_version(arguments.streaminggs)}
     by = results.made(arguments.streaminggs, [provenance], scenes)
-    right = sum(row[-2] for row in rows)
+    right = sum(row[-3] for row in rows)
     about = f"The resource named gains most on {right} of {len(rows)} views."
     results.write(arguments.out, "binding_check", by, COLUMNS, rows, about)

@@ -346,15 +346,23 @@ class Reports(unittest.TestCase):
                 self.assertEqual(energy.table_bytes({"vsu": {}}, keys), ())
 
     def test_whether_the_named_resource_gains_most(self):
-        for gains, most in (((0.2, 0.1), True), ((0.1, 0.2), False)):
-            doubled = [{"key": k, "time_saved": g} for k, g in zip("ab", gains)]
+        for gains, most, noise in (
+            ((0.2, 0.1), True, ""),
+            ((0.1, 0.2), False, ""),
+            ((0.004, 0.2), False, "a"),
+            ((0.001, 0.004), True, "a, b"),
+        ):
+            doubled = [
+                {"key": key, "time_saved": gain, "time_below_noise": gain < 0.005}
+                for key, gain in zip("ab", gains)
+            ]
             base = {"cycles": 1e6, "holds_key": "a"}
             answer = {"view": 0, "base": base, "doubled": doubled}
             answer |= {"named_gains_most": most, "verdict": "why"}
             with self.subTest(gains):
                 row = binding_check.row("x", answer)
                 self.assertEqual(row[4], gains[0])
-                self.assertEqual(row[6:], (max(gains), most, "" if most else "why"))
+                self.assertEqual(row[6:], (max(gains), most, noise, "" if most else "why"))
 
 
 if __name__ == "__main__":

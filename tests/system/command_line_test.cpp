@@ -27,6 +27,12 @@ void check_said(const OptionRow& row) {
   }
 }
 
+// Writes FACTOR.json, the report of a frame that takes so many times its cycles.
+std::string with_cycles(const std::string& factor) {
+  return "awk '/\"cycles\":/ && !n++ {sub(/[0-9]+/, int($2 * " + factor +
+         "))} {print}' o/view_0/report.json >" + factor + ".json";
+}
+
 TEST_CASE("command line: options and their values") {
   for (const OptionRow& row : std::vector<OptionRow>{
            {"$SG --version", {"streaminggs 0."}},
@@ -60,6 +66,9 @@ TEST_CASE("command line: options and their values") {
              "  dram.channels  4 -> 8\n", "\ncycles   "}},
            {"$SG simulate $B --out o >t && $SG diff o/view_0 o --least 0",
             {"configuration: 0 of ", "equal"}},
+           {"$SG simulate $B --out o >t && " + with_cycles("1.004") + " && " + with_cycles("1.01") +
+                " && $SG diff o/view_0 1.004.json && ! $SG diff o/view_0 1.01.json | grep noise",
+            {"+0.4 %   below the noise of a frame\n"}},
            {"$SG simulate $B --fit-memories --set hfus=8 --out o && cat o/report.json",
             {"\"configuration\": \"exact + 1 setting, memories fitted\""}},
            {"$SG sweep $B --axis hfus=8 --fit-memories --out r --csv t >o && cat t",

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/report/frame_noise.h"
 #include "testbench/streaminggs/report/numbers.h"
 #include "testbench/streaminggs/report/report_diff.h"
 
@@ -43,6 +44,11 @@ std::string change(double a, double b) {
   return a == 0 ? "new" : percent(b / a - 1);
 }
 
+// Behind a change of a frame's cycles, which may be none.
+std::string noise_of(double a, double b) {
+  return a > 0 && below_noise(b / a - 1) ? fmt::format("   {}", kBelowNoise) : "";
+}
+
 std::string change_of(const PartChange& part) {
   const std::string of_value = change(part.a, part.b);
   if (part.copies_a == part.copies_b || part.copies_a == 0 || part.copies_b == 0) return of_value;
@@ -65,10 +71,11 @@ void print_views(const ReportDiff& diff) {
   fmt::print("\n{:>6} {:>15} {:>15} {:>10} {:>9} {:>9}   {}\n", "view", "cycles A", "B", "change",
              "PSNR dB A", "B", "held by");
   for (const auto& [a, b] : diff.views) {
-    fmt::print("{:>6} {:>15} {:>15} {:>10} {:>9} {:>9}   {}\n", a->view,
+    fmt::print("{:>6} {:>15} {:>15} {:>10} {:>9} {:>9}   {}{}\n", a->view,
                in_words(a->cycles, Quantity::kBusy), in_words(b->cycles, Quantity::kBusy),
                change(a->cycles, b->cycles), a->psnr_db, b->psnr_db,
-               a->holds == b->holds ? a->holds : a->holds + " -> " + b->holds);
+               a->holds == b->holds ? a->holds : a->holds + " -> " + b->holds,
+               noise_of(a->cycles, b->cycles));
   }
 }
 
@@ -77,8 +84,9 @@ void print_wholes(const ReportDiff& diff) {
              "B", "change");
   for (const QuantityChange& q : diff.quantities) {
     const QuantityWords& words = words_of(q.quantity);
-    fmt::print("{:<15} {:>15} {:>15} {:>10}\n", fmt::format("{} {}", words.name, words.unit),
-               in_words(q.a, q.quantity), in_words(q.b, q.quantity), change(q.a, q.b));
+    fmt::print("{:<15} {:>15} {:>15} {:>10}{}\n", fmt::format("{} {}", words.name, words.unit),
+               in_words(q.a, q.quantity), in_words(q.b, q.quantity), change(q.a, q.b),
+               q.quantity == Quantity::kBusy && diff.views.size() == 1 ? noise_of(q.a, q.b) : "");
   }
 }
 

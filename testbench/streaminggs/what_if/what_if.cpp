@@ -6,11 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "testbench/streaminggs/report/frame_noise.h"
+
 namespace sgs {
 namespace {
-
-// Below this share of the frame two gains are the same.
-constexpr double kSameGain = 0.001;
 
 double saved(double before, double after) { return before > 0 ? 1 - after / before : 0; }
 
@@ -75,7 +74,8 @@ void rank(const Outcome& base, std::vector<Doubling>& doublings) {
 bool named_gains_most(const Outcome& base, const std::vector<Doubling>& doublings) {
   const Doubling* named = named_by(base.binding, doublings);
   return named != nullptr && named->refused.empty() &&
-         time_saved(base, doublings.front().outcome) - time_saved(base, named->outcome) < kSameGain;
+         time_saved(base, doublings.front().outcome) - time_saved(base, named->outcome) <
+             kFrameNoise;
 }
 
 std::string verdict(const Outcome& base, const std::vector<Doubling>& doublings) {
@@ -85,7 +85,10 @@ std::string verdict(const Outcome& base, const std::vector<Doubling>& doublings)
   }
   const Doubling& best = doublings.front();
   const double most = time_saved(base, best.outcome);
-  if (most < kSameGain) return "nothing doubled gains a thousandth of the time";
+  if (most < kFrameNoise) {
+    return fmt::format("nothing doubled gains more than the noise of a frame, {} % of the time",
+                       100 * kFrameNoise);
+  }
   const Doubling* named = named_by(binding, doublings);
   if (named == nullptr) {
     return fmt::format(

@@ -41,8 +41,8 @@ std::string change_in_words(double saved);
 // Most time saved first, the cheaper of equals; what was refused comes last.
 void rank(const Outcome& base, std::vector<Doubling>& doublings);
 
-// True if no other doubling gains more than the one that the base's binding names, but for a
-// thousandth of the frame.
+// True if no other doubling gains more than the one that the base's binding names, but for the
+// noise of a frame.
 bool named_gains_most(const Outcome& base, const std::vector<Doubling>& doublings);
 
 // Says, with the numbers, whether the base's bottleneck (its binding's resource) is the one that

@@ -15,6 +15,7 @@
 #include "testbench/command_line/config_source.h"
 #include "testbench/result/collect.h"
 #include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/report/frame_noise.h"
 #include "testbench/streaminggs/run/frame_run.h"
 #include "testbench/streaminggs/run/prepared_scene.h"
 #include "testbench/streaminggs/run/scene_arguments.h"
@@ -94,14 +95,16 @@ void print(const Outcome& base, const std::vector<Doubling>& doublings) {
     const double time = time_saved(base, d.outcome);
     const double energy = energy_saved(base, d.outcome);
     const double mm2 = d.outcome.mm2 - base.mm2;
+    const bool noise = below_noise(time);
     // Most of the memory stands beside the chip, where its area is not counted.
     const bool counted = d.key.rfind("dram.", 0) != 0;
     const auto per_mm2 = [&](double gain) {
       return counted && mm2 > 0 ? change_in_words(gain / mm2) : std::string("-");
     };
-    fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>+9.3f} {:>10} {:>10}   {}\n", d.key,
+    fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>+9.3f} {:>10} {:>10}   {}{}\n", d.key,
                d.from, d.to, d.outcome.cycles, change_in_words(time), change_in_words(energy), mm2,
-               per_mm2(time), per_mm2(energy), d.outcome.binding.holds);
+               noise ? "-" : per_mm2(time), per_mm2(energy), d.outcome.binding.holds,
+               noise ? fmt::format("; time {}", kBelowNoise) : "");
   }
   for (const Doubling& d : doublings) {
     if (!d.refused.empty()) fmt::print("{}={}: cannot be: {}\n", d.key, d.to, d.refused);
@@ -126,6 +129,7 @@ Json to_json(int view, const Outcome& base, const std::vector<Doubling>& doublin
     if (d.refused.empty()) {
       row.update(to_json(d.outcome), true);
       row["time_saved"] = time_saved(base, d.outcome);
+      row["time_below_noise"] = below_noise(time_saved(base, d.outcome));
       row["energy_saved"] = energy_saved(base, d.outcome);
     } else {
       row["refused"] = d.refused;
