@@ -199,8 +199,8 @@ def block_at(y: float, block: Block, keys: Mapping[str, str], datapaths: Rows, u
 
 
 def finished(bottom: float) -> str:
-    """From `bottom` on: what rendering tells the units before it: VSU, coarse filters, merge."""
-    told = [at for at, block in enumerate(BLOCKS) if block.name in ("VSU", "HFU, coarse", "merge")]
+    """From `bottom` on: what rendering tells the units before it. Sorting has nothing to drop."""
+    told = [at for at, block in enumerate(BLOCKS) if block.name not in ("sorting", "rendering")]
     drawn = f'  <path class="back" d="M{RIGHT} {bottom}H{BACK}V{TOP + HEIGHT / 2}"/>\n'
     for at in told:
         y = TOP + at * (HEIGHT + GAP) + HEIGHT / 2
