@@ -132,7 +132,7 @@ def about(compared_scenes: Sequence[str], tuned_scenes: Sequence[str]) -> str:
     return (
         f"Geometric means over trained scenes, frames alone, {GB_S} GB/s. First rows: "
         f"{', '.join(compared_scenes)}, two sizes each. Last row: {', '.join(tuned_scenes)}, small "
-        "pictures, each tuned to either machine."
+        "pictures, each tuned to either machine; dB beside photographs or own pictures."
     )
 
 
