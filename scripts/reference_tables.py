@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes the tables of keys, activities and counters that stand beside the sources as KEYS.md, as
-`streaminggs describe` prints them. With --check nothing is written, and a table that differs from
-the program is an error."""
+"""Writes the tables of keys, activities and counters that stand beside the sources as KEYS.md, and the
+block diagram of the preset `exact`, from what `streaminggs describe` prints. With --check nothing is
+written, and what differs from the program is an error."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ import subprocess
 import sys
 from typing import NoReturn
 
+from drawing import block_diagram
+
 REPOSITORY = pathlib.Path(__file__).resolve().parent.parent
 KEY = re.compile(r"(?P<key>[\w.]+) = (?P<value>.*?)  \((?P<allowed>[^()]*)\)  (?P<meaning>.*)")
 WRITTEN_BY = "<!-- Written by scripts/reference_tables.py from `streaminggs describe`. -->\n\n"
@@ -27,25 +29,34 @@ class Described:
     """What `describe` prints of one configuration: rows of its tables, in their order."""
 
     keys: dict[str, tuple[str, str, str]]  # value, allowed, meaning
-    activities: list[tuple[str, ...]]
-    counters: list[tuple[str, ...]]
+    tables: list[tuple[tuple[str, ...], list[tuple[str, ...]]]]  # head, rows
+
+    def rows_with(self, column: str) -> list[tuple[str, ...]]:
+        """Of the table that has this column."""
+        return next(rows for head, rows in self.tables if column in head)
+
+    def named_rows_with(self, column: str) -> list[dict[str, str]]:
+        head = next(head for head, _ in self.tables if column in head)
+        return [dict(zip(head, row)) for row in self.rows_with(column)]
 
 
 def described(command: str, configuration: str) -> Described:
     run = subprocess.run(
         [command, "describe", "--config", configuration], capture_output=True, text=True, check=True
     )
-    out = Described({}, [], [])
-    tables = {"| unit | activity |": out.activities, "| unit | counter |": out.counters}
-    rows: list[tuple[str, ...]] = []
+    out = Described({}, [])
+    before = ""
     for line in run.stdout.splitlines():
         if found := KEY.fullmatch(line):
             out.keys[found["key"]] = (found["value"], found["allowed"], found["meaning"])
-        elif line.startswith("| unit |"):
-            rows = next(rows for head, rows in tables.items() if line.startswith(head))
-        elif line.startswith("| `"):
-            rows.append(tuple(cell.strip() for cell in line.strip("| ").split(" | ")))
-    if not out.keys or not out.activities or not out.counters:
+        elif line.startswith("| "):
+            cells = tuple(cell.strip() for cell in line.strip("| ").split(" | "))
+            if not before.startswith("|"):
+                out.tables.append((cells, []))
+            elif set(cells) != {"---"}:
+                out.tables[-1][1].append(cells)
+        before = line
+    if not out.keys or not out.tables or not all(rows for _, rows in out.tables):
         raise ValueError(f"{command} describe --config {configuration}: a table is empty")
     return out
 
@@ -98,11 +109,11 @@ def machine_page(title: str, presets: dict[str, Described]) -> str:
         + key_table(presets, lambda key: not key.startswith((MEMORY, STORAGE)))
         + "## Activities\n\nA resource is as busy as its busiest activity.\n\n"
         + unit_table(
-            presets, lambda d: d.activities, ["unit", "activity", "resource", "what it does"]
+            presets, lambda d: d.rows_with("activity"), ["unit", "activity", "resource", "what it does"]
         )
         + "## Counters\n\n"
         + unit_table(
-            presets, lambda d: d.counters, ["unit", "counter", "unit of measure", "meaning"]
+            presets, lambda d: d.rows_with("counter"), ["unit", "counter", "unit of measure", "meaning"]
         )
     ).rstrip("\n") + "\n"
 
@@ -124,6 +135,11 @@ def pages(command: str) -> dict[str, str]:
             lambda key: key.startswith(STORAGE),
         ).rstrip("\n")
         + "\n",
+        "traces/pictures/block_diagram.svg": block_diagram.svg(
+            "exact",
+            {key: value for key, (value, *_) in exact.keys.items()},
+            *(exact.named_rows_with(column) for column in ("datapath", "use", "channels")),
+        ),
     }
 
 

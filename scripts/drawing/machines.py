@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from drawing.figure import (
     COLOURS,
     INK,
+    ON_PAPER,
     Data,
     Made,
     Missing,
@@ -31,6 +32,20 @@ MAKER = "results.py compare_machines"
 GPU = "GPU, modelled"  # it has its own memory, and stands beside machines with any
 AT_MOST = "frames/s at most, overlapped"
 WISHED_FPS = 90
+# What the ratios show: pairs of one precision, and the one that is published.
+PAIRS = (
+    ("exact_fast", "gscore_lossless"),
+    ("exact", "gscore_lossless"),
+    ("exact_fp16", "gscore_fp32_keys"),
+    ("paper", "gscore"),
+)
+CIRCLES = {
+    "marker": "o",
+    "markersize": 4.5,
+    "markerfacecolor": "white",
+    "markeredgecolor": INK,
+    "linestyle": "none",
+}
 LPDDR3_GB_S, ORIN_NX_GB_S = 25.6, 102.4
 # Of the paper: frames a second of the GPU, and what its parts gain over the machine without
 # codebooks and coarse filter (energy 21.5, 27.3, 62.9 times that of the GPU; speed 22.2, 45.7).
@@ -140,10 +155,8 @@ def draw_ratios(axes: Axes, rows: list[dict[str, str]], columns: tuple[str, ...]
             label = "ratio of the bounds, frames overlapped" if first else None
             style = {"markersize": 9, "markeredgewidth": 2.2, "color": COLOURS[3]}
             axes.plot(number(row[bound]), y, "|", label=label, **style)
-        published = number(row[said].removesuffix(" derived"))
-        if published is not None:
-            face = INK if row[said].endswith("derived") else "white"
-            axes.plot(published, y, "D", markersize=5, markeredgecolor=INK, color=face)
+        if (published := number(row[said])) is not None:
+            axes.plot(published, y, "D", markersize=5, markeredgecolor=INK, color="white")
     axes.axvline(1, color=INK, linewidth=0.6)
     axes.set_ylim(len(rows) - 0.4, -0.6)
     axes.set_xlim(left=0)
@@ -151,34 +164,26 @@ def draw_ratios(axes: Axes, rows: list[dict[str, str]], columns: tuple[str, ...]
 
 
 def ratios(results: Results) -> Made:
-    """Over all sizes: over the GPU, and over tile-centric machines."""
+    """Over all sizes, each machine over the tile-centric one that it is held against."""
     speed = ("times as fast", "published speed", "both overlapped")
     energy = ("times less energy", "published energy", "")
     columns = ("GB/s", "sizes", "machine", "than", *speed, *energy[:2])
     data = results.table("compare_machines_ratios", MAKER, columns)
-    every = data.where(sizes="all")
-    over_gpu = [row for row in every if row["than"] == GPU]
-    groups = [rows for rows in (over_gpu, [r for r in every if r["than"] != GPU]) if rows]
-    rows_of = [len(rows) + 2 for rows in groups]
-    height = 0.24 * sum(rows_of) / len(groups) + 0.4
-    figure, all_axes = panels(2 * len(groups), width=5, height=height, heights=rows_of)
-    for rows, left, right in zip(groups, all_axes[::2], all_axes[1::2]):
-        than_gpu = rows is over_gpu
-        names = [
-            f"{row['machine']}{'' if than_gpu else ' / ' + row['than']}, {row['GB/s']}"
-            for row in rows
-        ]
-        draw_ratios(left, rows, speed)
-        draw_ratios(right, rows, energy)
-        left.set_yticks(range(len(names)), names, fontsize=8)
-        right.set_yticks([])
-        left.set_title("Times as fast" + (" as the modelled GPU" if than_gpu else ""))
-        right.set_title("Times less energy" + (" than the modelled GPU" if than_gpu else ""))
-    legend_above(figure, all_axes[0])
+    every = [row for row in data.where(sizes="all") if (row["machine"], row["than"]) in PAIRS]
+    if not every:
+        raise Missing(f"{data.made}: no rows of {', '.join(map(' / '.join, PAIRS))}")
+    rows = sorted(every, key=lambda row: PAIRS.index((row["machine"], row["than"])))
+    figure, (left, right) = panels(2, width=4.8, height=0.32 * len(rows) + 1)
+    draw_ratios(left, rows, speed)
+    draw_ratios(right, rows, energy)
+    names = [f"{row['machine']} / {row['than']}, {row['GB/s']}" for row in rows]
+    left.set_yticks(range(len(names)), names)
+    right.set_yticks([])
+    left.set_title("Speed-up")
+    right.set_title("Energy, baseline over machine")
+    legend_above(figure, left)
     return figure, (
-        "Behind each name its GB/s. Diamond: published, black where derived from published ratios. "
-        "The GPU's time is modelled, its joules are watts times that time. Of exact / gscore the "
-        f"precisions differ. From {data.made}"
+        f"Behind each name its GB/s. Diamond: published. From {data.made}"
     )
 
 
@@ -354,7 +359,34 @@ def group_size(results: Results) -> Made:
     return figure, f"What the size of a group costs. From {data.made}"
 
 
+def headline(results: Results) -> Made:
+    """A pair of bars for each machine and its baseline: geometric means over the scenes, a circle
+    each."""
+    pair, columns = "machine / baseline", ("speed-up", "energy, baseline over machine")
+    data = results.table("headline_scenes", "results.py headline", (pair, "scene", *columns))
+    pairs = data.different(pair)
+    figure, (axes,) = panels(1, width=6, height=0.6 * len(pairs) + 0.9)
+    for at, column in enumerate(columns):
+        places = [y + (at - 0.5) * 0.36 for y in range(len(pairs))]
+        single = [[number(row[column]) for row in data.where(**{pair: of})] for of in pairs]
+        means = [statistics.geometric_mean(of) for of in single]
+        axes.barh(places, means, 0.36, label=column, **bar_style(at))
+        for y, of, mean in zip(places, single, means):
+            label = "single scenes" if (at, y) == (0, places[0]) else None
+            axes.plot(of, [y] * len(of), label=label, **CIRCLES)
+            axes.annotate(f"{mean:.2f}", (0.06, y), va="center", fontweight="bold", bbox=ON_PAPER)
+    axes.axvline(1, color=INK, linewidth=1.2)
+    axes.set_yticks(range(len(pairs)), [of.replace(" / ", "\nover ") for of in pairs])
+    axes.set_ylim(len(pairs) - 0.45, -0.55)
+    axes.set_xlim(left=0)
+    axes.grid(axis="y", visible=False)
+    axes.set_xlabel("times the baseline, more is better")
+    legend_above(figure, axes)
+    return figure, f"Bars: geometric means over trained scenes. From {data.made}"
+
+
 FIGURES = {
+    "headline": headline,
     "compare_machines_rates": rates,
     "compare_machines_traffic": traffic,
     "compare_machines_ratios": ratios,

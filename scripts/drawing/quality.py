@@ -7,7 +7,6 @@ import math
 from collections.abc import Sequence
 
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.transforms import Bbox
 
 from drawing.figure import (
@@ -29,32 +28,17 @@ from drawing.figure import (
 )
 
 EQUAL = "equal"
-NAME_OFFSETS = ((4, -9), (-1, 6), (-1, 15), (4, -18), (-1, 24), (4, -27), (-60, -9))  # points
+NAME_OFFSETS = ((6, -10), (-1, 7), (-1, 17), (6, -20), (-1, 27), (6, -30), (-70, -10))  # points
 HIGHEST = 100  # dB; nearer pictures are drawn there, equal ones above
 NAMED_APART = 3  # dB better than the machine before
-COSTS = {"ms": "frame time, ms", "MB": "DRAM traffic, MB", "mJ": "energy, mJ"}
 SCRIPT = "results.py error_against_time"
-ORDERS = {"exact": "exact order", "paper": "paper order", "tiles": "tile-centric"}
-# Colour and face of a marker say the order, its shape what was moved.
-ORDER_COLOURS = {"exact": COLOURS[0], "paper": COLOURS[3], "tiles": COLOURS[1]}
-ORDER_FACES = {"exact": "full", "paper": "none", "tiles": "full"}
-KNOBS = {
-    "as the preset": ("*", "as the preset"),
-    "group px": ("s", "group"),
-    "chunk": ("^", "chunk"),
-    "voxel": ("^", "chunk, voxel"),
-    "merge": ("v", "merge buffer"),
-    "rays": ("v", "merge buffer, rays"),
-    "voxels cut": ("v", "merge buffer, rays"),
-    "encoding": ("D", "encoding"),
-    "precision": ("o", "precision"),
-    "finishing": ("X", "finishing off"),
-    "pixels": ("P", "8-bit pixels"),
-    "combined": ("<", "combined"),
-    "tuning": (">", "tuned"),
+# By order: its name, colour, marker and face.
+ORDERS = {
+    "exact": ("exact order", COLOURS[0], "o", COLOURS[0]),
+    "tiles": ("tile-centric", COLOURS[1], "s", COLOURS[1]),
+    "paper": ("paper order", COLOURS[3], "D", "white"),
 }
-# Of one marker, in the words of both orders.
-KNOB_NAMES = {"^": "chunk, voxel", "v": "merge buffer, rays"}
+PRESET = "as the preset"  # what is moved of it
 TIMED = ("scene", "view", "renderer", "finished below", "threads", "ms", "PSNR dB")
 DOUBLE = "double"
 
@@ -75,20 +59,22 @@ def front(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
     return kept
 
 
-def draw_machines(axes: Axes, rows: Sequence[dict[str, str]], cost: str, value) -> None:
-    """A marker for each machine; value: of a row, upwards."""
-    for row in rows:
-        colour = ORDER_COLOURS[row["order"]]
-        axes.plot(
-            number(row[cost]),
-            value(row),
-            marker=KNOBS[row["moved"]][0],
-            markersize=9 if row["moved"] == "as the preset" else 5.5,
-            markerfacecolor=colour if ORDER_FACES[row["order"]] == "full" else "white",
-            markeredgecolor=colour,
-            linestyle="none",
-            zorder=3,
-        )
+def draw_machines(axes: Axes, rows: Sequence[dict[str, str]]) -> None:
+    """A marker for each machine, larger for the preset of an order."""
+    for order, (label, colour, marker, face) in ORDERS.items():
+        for preset, size in ((False, 5), (True, 10)):
+            of = [r for r in rows if r["order"] == order and (r["moved"] == PRESET) == preset]
+            axes.plot(
+                [number(row["ms"]) for row in of],
+                [quality(row["PSNR dB"]) for row in of],
+                marker=marker,
+                markersize=size,
+                markerfacecolor=face,
+                markeredgecolor=INK if preset else colour,
+                linestyle="none",
+                label=None if preset else label,
+                zorder=4 if preset else 3,
+            )
     axes.set_xscale("log")
     plain_logarithmic(axes.xaxis)
 
@@ -98,10 +84,10 @@ def name_of(row: dict[str, str]) -> str:
     return words.strip().replace("group px", "group")
 
 
-def draw_front(axes: Axes, rows: Sequence[dict[str, str]], cost: str) -> None:
-    """A line along what no cheaper machine reaches, and the names of these. The limits of the axes
+def draw_front(axes: Axes, rows: Sequence[dict[str, str]]) -> None:
+    """A line along what no faster machine reaches, and the names of these. The limits of the axes
     are set."""
-    points = {(number(row[cost]), quality(row["PSNR dB"])): name_of(row) for row in rows}
+    points = {(number(row["ms"]), quality(row["PSNR dB"])): name_of(row) for row in rows}
     line = front(list(points))
     axes.step(*zip(*line), where="post", color="#626a78", linewidth=1, zorder=1)
     named = [p for at, p in enumerate(line) if not at or p[1] - line[at - 1][1] > NAMED_APART]
@@ -113,7 +99,7 @@ def draw_front(axes: Axes, rows: Sequence[dict[str, str]], cost: str) -> None:
 def name_beside(axes: Axes, name: str, point: tuple[float, float], taken: list[Bbox]) -> None:
     """At the first place around the point where no other name stands."""
     for offset in NAME_OFFSETS:
-        text = axes.annotate(name, point, xytext=offset, textcoords="offset points", fontsize=6.5,
+        text = axes.annotate(name, point, xytext=offset, textcoords="offset points", fontsize=8,
                              bbox=ON_PAPER, zorder=2)  # fmt: skip
         box = text.get_window_extent()
         if not any(box.overlaps(other) for other in taken) or offset == NAME_OFFSETS[-1]:
@@ -122,33 +108,17 @@ def name_beside(axes: Axes, name: str, point: tuple[float, float], taken: list[B
         text.remove()
 
 
-def legend_of_machines(figure: Figure, axes: Axes) -> None:
-    for order, label in ORDERS.items():
-        face = ORDER_COLOURS[order] if ORDER_FACES[order] == "full" else "white"
-        style = {"markerfacecolor": face, "markeredgecolor": ORDER_COLOURS[order]}
-        axes.plot([], [], marker="o", linestyle="none", label=label, **style)
-    for marker in dict.fromkeys(marker for marker, _ in KNOBS.values()):
-        names = [name for of, name in KNOBS.values() if of == marker]
-        label = KNOB_NAMES.get(marker, names[0])
-        axes.plot([], [], marker=marker, linestyle="none", color=INK, fillstyle="none", label=label)
-    legend_above(figure, axes, columns=7)
-
-
-def image_table(results: Results) -> Data:
-    columns = ("scene", "order", "moved", "to", "PSNR dB", "SSIM", "largest", "missed")
-    return results.table("error_image", SCRIPT, (*columns, "misordered", *COSTS))
-
-
 def error_image(results: Results) -> Made:
-    """A row of diagrams for each scene: PSNR against time, bytes and energy."""
-    data = image_table(results)
+    """A diagram for each scene."""
+    columns = ("scene", "order", "moved", "to", "PSNR dB", "ms")
+    data = results.table("error_image", SCRIPT, columns)
     scenes = data.different("scene")
-    figure, flat = panels(3 * len(scenes), across=3, width=3.9, height=2.7)
-    for at, axes in enumerate(flat):
-        rows, cost = data.where(scene=scenes[at // 3]), list(COSTS)[at % 3]
-        draw_machines(axes, rows, cost, lambda row: quality(row["PSNR dB"]))
-        axes.set(xlabel=COSTS[cost], ylim=(None, quality(EQUAL) + 8))
-        draw_front(axes, rows, cost)
+    figure, flat = panels(len(scenes), width=4.4, height=3.2)
+    for axes, scene in zip(flat, scenes):
+        rows = data.where(scene=scene)
+        draw_machines(axes, rows)
+        axes.set(xlabel="frame time, ms", ylim=(None, quality(EQUAL) + 8))
+        draw_front(axes, rows)
         axes.axhline(quality(EQUAL), color=INK, linewidth=0.6, linestyle=":")
         axes.annotate(
             EQUAL,
@@ -159,40 +129,11 @@ def error_image(results: Results) -> Made:
             fontsize=8,
             bbox=ON_PAPER,
         )
-        axes.set_title(f"{scenes[at // 3]}: PSNR, dB" if cost == "ms" else "")
-    legend_of_machines(figure, flat[0])
+        axes.set_title(f"{scene}: PSNR, dB")
+    legend_above(figure, flat[0])
     return figure, (
-        "Pictures of machines against what a frame takes; full: exact order and tile-centric, "
-        "open: paper order; the line: what no cheaper machine reaches; above "
-        f"{HIGHEST} dB at {HIGHEST}. From {data.made}"
-    )
-
-
-def error_image_kinds(results: Results) -> Made:
-    """Kinds of error against frame time, a row of diagrams for each scene."""
-    data = image_table(results)
-    scenes = data.different("scene")
-    kinds = {
-        "1 - SSIM": lambda row: 1 - number(row["SSIM"]),
-        "largest error": lambda row: number(row["largest"]),
-        "missed, (group, splat) pairs": lambda row: number(row["missed"]),
-        "misordered, share of blends": lambda row: number(row["misordered"]),
-    }
-    figure, flat = panels(len(kinds) * len(scenes), across=len(kinds), width=3.2, height=2.4)
-    for at, axes in enumerate(flat):
-        title, value = list(kinds.items())[at % len(kinds)]
-        rows = data.where(scene=scenes[at // len(kinds)])
-        draw_machines(axes, rows, "ms", value)
-        smallest = min((v for row in rows if (v := value(row)) > 0), default=1)
-        smallest = 10 ** math.floor(math.log10(smallest))
-        axes.set_yscale("symlog", linthresh=smallest, linscale=0.8)
-        axes.set_ylim(-0.3 * smallest, 3 * max(map(value, rows)) or 1)
-        axes.set_title(f"{scenes[at // len(kinds)]}: {title}", fontsize=8.5)
-        axes.set_xlabel(COSTS["ms"])
-    legend_of_machines(figure, flat[0])
-    return figure, (
-        "The same machines by other errors, logarithmic above the smallest one, 0 at the bottom. "
-        f"From {data.made}"
+        "Each marker is a machine, a large one a preset; the line: what no faster machine reaches; "
+        f"above {HIGHEST} dB at {HIGHEST}. From {data.made}"
     )
 
 
@@ -372,7 +313,6 @@ def voxel_size(results: Results) -> Made:
 
 FIGURES = {
     "error_image": error_image,
-    "error_image_kinds": error_image_kinds,
     "error_tuning": error_tuning,
     "error_renderers": error_renderers,
     "tuning_curve": tuning_curve,

@@ -164,7 +164,7 @@ def make_image(scenes: list[Scene], arguments: argparse.Namespace) -> None:
     rows = sorted((row for row, _ in found), key=lambda cells: order[cells[0]])
     by = results.made_of(arguments.streaminggs, (view for _, view in found), scenes)
     results.write(arguments.out, "error_image", by, IMAGE_COLUMNS, rows)
-    results.draw_beside(arguments.out, "error_image", "error_image_kinds")
+    results.draw_beside(arguments.out, "error_image")
 
 
 def looks_every(steps: int) -> tuple[str, ...]:

@@ -1,5 +1,5 @@
 // streaminggs describe: the data sheets of a machine and the keys of its configuration, as tables
-// in Markdown. The documentation's tables are made by it.
+// in Markdown. The documentation's tables and its block diagram are made by it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <string>
 
 #include "modules/config/strict_json.h"
+#include "modules/dram/memspec.h"
 #include "testbench/builtin/open_scene.h"
 #include "testbench/command_line/config_source.h"
 #include "testbench/process/in_child.h"
@@ -16,6 +17,7 @@
 #include "testbench/result/wire.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/run/prepared_scene.h"
+#include "tlm/memory_port.h"
 #include "tlm/time_resolution.h"
 
 namespace sgs {
@@ -95,6 +97,14 @@ void print_sheets(const MachineResult& machine) {
   }
 }
 
+void print_memory(const DramConfig& dram) {
+  const Memspec memspec = load_memspec(dram.memspec);
+  Table memory("| memory | channels | bits of a channel | most GB/s | a port's bytes a cycle |");
+  memory.row(fmt::format("{} | {} | {} | {:.4g} | {} ", memspec.name, dram.channels,
+                         memspec.organisation.width_bits, dram.channels * memspec.peak_gb_per_s(),
+                         kPortBytes));
+}
+
 // Data sheets do not depend on the scene but for whether there is anything to decode.
 MachineResult sheets_of(RunConfig& config) {
   Scene scene = open_scene("builtin:object?n=64");
@@ -127,6 +137,7 @@ SubCommand add_describe_command(CommandLine& line, const Kinds& kinds) {
     resolve(config);
     fmt::print("{}", keys->text());
     print_sheets(sheets_of(config));
+    print_memory(config.dram);
     return 0;
   };
 }

@@ -1,12 +1,20 @@
 """Machines beside each other: what their tables compute."""
 
 import argparse
+import contextlib
 import dataclasses
+import io
+import json
 import math
+import pathlib
 import unittest
+from unittest import mock
 
-import in_folder  # noqa: F401, isort: skip (finds the scripts)
-from studies import compare_machines, machines, timing
+from in_folder import RESULTS, InFolder  # isort: skip (finds the scripts)
+import results
+from results import Column, Made
+from runs.files import content_digest
+from studies import compare_machines, headline, machines, timing
 from runs.scenes import Scene
 from studies.machines import Case, sizes_of
 
@@ -246,6 +254,88 @@ class Machines(unittest.TestCase):
         m = dataclasses.replace(m, bytes_by_region=of)
         kinds = [m.bytes(kind) for kind in ("scene", "intermediate", "pixels")]
         self.assertEqual((kinds, m.bytes()), ([11, 12, 3], 26))
+
+
+class Headline(InFolder):
+    """From tables of other studies, with areas that stand in for runs."""
+
+    PAIR = ("exact_fast", "gscore_lossless")
+    FEW = {PAIR: "equal"}
+
+    def setUp(self):
+        super().setUp()
+        self.write_cases(
+            *(("truck", 2, 3), ("truck", 8, 3), ("yard", 1, 12)), ("builtin:object", 64, 64)
+        )
+        states = (("exact_vq", 2, 3, "40"), ("paper", 8, 9, "30"))
+        self.save(
+            headline.TUNED,
+            ("scene", "tuned", "preset", "M cycles", "mJ", "PSNR dB"),
+            [
+                (scene, tuned, preset, cycles * by, joules, quality)
+                for preset, cycles, joules, quality in states
+                for scene, by in (("lego", 1), ("desk", 4))
+                for tuned in (headline.TUNED_TO, "as given")
+            ],
+        )
+
+    def write_cases(self, *cases):
+        head = ("scene", "GB/s", "machine", "than", "times as fast", "times less energy")
+        rows = [(scene, "25.6", *self.PAIR, *ratios) for scene, *ratios in cases]
+        rows.append(("truck", "51.2", *self.PAIR, 100, 100))
+        self.save(headline.CASES, head, rows)
+
+    def save(self, name, head, rows):
+        by = Made("x", (f"of {name}",))
+        results.save(self.folder, name, by, [Column(each, "") for each in head], rows)
+
+    def made(self) -> list[dict[str, str]]:
+        def area(_, preset: str, technology: pathlib.Path) -> tuple[float, dict]:
+            counted = json.loads(technology.read_text())["memory_interface"]["counted"]
+            return {"exact_fast": 3, "exact_vq": 3}.get(preset, 2) + (4 if counted else 0), {}
+
+        arguments = argparse.Namespace(
+            tables=self.folder, out=self.folder, streaminggs=self.stand_in("")
+        )
+        with mock.patch.object(headline, "area_mm2", area):
+            with mock.patch.object(headline, "PICTURES", self.FEW):
+                with contextlib.redirect_stdout(io.StringIO()):
+                    headline.make(arguments)
+        return results.read_rows(self.folder, "headline")
+
+    def test_each_trained_scene_counts_once(self):
+        """Truck 4 and 3, yard 1 and 12; a built-in scene and the other memory do not count."""
+        first, _ = self.made()
+        self.assertEqual(first["machine / baseline"], "exact_fast / gscore_lossless")
+        self.assertAlmostEqual(float(first["speed-up"]), 2)
+        self.assertAlmostEqual(float(first["energy, baseline over machine"]), 6)
+        self.assertEqual(first["area ratio"], "1.5")
+        self.assertAlmostEqual(float(first["area ratio with PHY and controller"]), 7 / 6)
+        scenes = results.read_rows(self.folder, "headline_scenes")
+        self.assertEqual([row["scene"] for row in scenes], ["truck", "yard", "lego", "desk"])
+
+    def test_of_tuned_scenes_only_what_was_tuned_to_codebooks(self):
+        *_, last = self.made()
+        self.assertEqual(last["machine / baseline"], "exact_vq / paper")
+        self.assertAlmostEqual(float(last["speed-up"]), 4)
+        self.assertAlmostEqual(float(last["energy, baseline over machine"]), 3)
+        self.assertEqual(last["picture"], "40.0 .. 40.0 dB, baseline 30.0 .. 30.0 dB")
+
+    def test_it_names_the_tables_that_it_is_from(self):
+        self.made()
+        made = results.facts_of(self.folder, "headline")["made"]
+        self.assertEqual(made["commits"], [f"of {headline.CASES}", f"of {headline.TUNED}"])
+        self.assertEqual(list(made["inputs"]), [f"{headline.CASES}.csv", f"{headline.TUNED}.csv"])
+
+    def test_without_trained_scenes_there_is_none(self):
+        self.write_cases(("builtin:object", 1, 1))
+        with self.assertRaisesRegex(ValueError, "no trained scene of exact_fast / gscore_lossless"):
+            self.made()
+
+    def test_that_of_this_repository_is_from_the_tables_beside_it(self):
+        made = results.facts_of(RESULTS.TABLES, "headline")["made"]
+        for name, digest in made["inputs"].items():
+            self.assertEqual(content_digest(RESULTS.TABLES / name), digest, name)
 
 
 if __name__ == "__main__":

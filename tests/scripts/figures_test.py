@@ -12,6 +12,7 @@ import xml.etree.ElementTree
 from unittest import mock
 
 from in_folder import COMMAND, REPOSITORY, InFolder, nightly  # isort: skip (finds the scripts)
+from drawing import block_diagram
 from runs import run_arguments, simulations
 from runs.scenes import find_scene
 from studies import (
@@ -21,6 +22,7 @@ from studies import (
     energy,
     error_against_time,
     fair_fight,
+    headline,
     training_curves,
     voxel_study,
 )
@@ -173,6 +175,12 @@ TABLES = {
         ("64x32", "clock and leakage"),
     ),
 }
+TABLES["headline"] = (
+    "headline_scenes",
+    names(headline.SCENE_COLUMNS),
+    [{"machine / baseline": "exact / gscore", "scene": scene} for scene in ("truck", "yard")],
+    ("exact over gscore", "single scenes", "speed-up", "times the baseline"),
+)
 MACHINES = ("gscore", "exact", "GPU, modelled")
 TABLES |= {
     "compare_machines_rates": (
@@ -204,15 +212,14 @@ TABLES |= {
                 "machine": machine,
                 "than": than,
                 "published speed": speed,
-                "published energy": "27.3 derived",
             }
             for machine, than, speed in (
-                ("gscore", "GPU, modelled", "21.6"),
-                ("exact", "gscore", ""),
+                ("paper", "gscore", "2.1"),
+                ("exact", "gscore_lossless", ""),
             )
             for sizes in ("4x2", "all")
         ],
-        ("gscore, 25.6", "exact / gscore, 25.6", "than the modelled GPU", "black where derived"),
+        ("exact / gscore_lossless, 25.6", "paper / gscore, 25.6", "Speed-up", "published"),
     ),
 }
 MADE_TOGETHER = {
@@ -228,7 +235,7 @@ MADE_TOGETHER = {
                 ("tiles", "combined", "gscore", "46"),
             )
         ],
-        ("truck: PSNR", "tile-centric", "DRAM traffic, MB", "voxel x 2", "equal"),
+        ("truck: PSNR", "tile-centric", "frame time, ms", "voxel x 2", "equal"),
     ),
     "error_tuning": (
         "error_tuning",
@@ -253,9 +260,7 @@ MADE_TOGETHER = {
         ("truck 0, renderers: PSNR", "truck 3, renderers: PSNR", "reference", "2 threads", "0.01"),
     ),
 }
-TABLES |= MADE_TOGETHER | {
-    "error_image_kinds": (*MADE_TOGETHER["error_image"][:3], ("misordered",))
-}
+TABLES |= MADE_TOGETHER
 OF_RUNS = ("roofline", "waits", "traffic")
 
 
@@ -354,7 +359,7 @@ class Drawn(Figures):
         (self.folder / "compare_variants.csv").write_text("scene,mJ\ntruck,1\n")
         (self.folder / "voxel_study.csv").write_text("scene\n")
         for words, said in (
-            (("nope",), "nope: no figure, expected compare_machines_rates"),
+            (("nope",), "nope: no figure, expected headline"),
             (("characterisation",), "nothing to draw"),
             (("variants",), "columns scene, mJ; expected variant"),
             (("voxel_size",), "expected of the preset's"),
@@ -376,6 +381,63 @@ class WithoutMatplotlib(Figures):
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         said = "^.*figures.py: needs python3-matplotlib, which scripts/tools.sh installs\n$"
         self.assertRegex(done.stderr, said)
+
+
+class BlockDiagram(unittest.TestCase):
+    """Without Matplotlib, from rows as `describe` prints them."""
+
+    KEYS = {
+        "clock_mhz": "1000",
+        **dict.fromkeys(("group_width_px", "group_height_px", "hfus", "sorting_units"), "3"),
+        "memory_port.max_outstanding": "16",
+    }
+    FIFOS = {block.fifo for block in block_diagram.BLOCKS if block.fifo}
+    MEMORY = {
+        "memory": "lpddr",
+        "channels": "4",
+        "bits of a channel": "32",
+        "most GB/s": "25.6",
+        block_diagram.PORT: "64",
+    }
+
+    def use(self, name: str) -> dict[str, str]:
+        entries = "5 x 7 keys x 8 B" if name in self.FIFOS else "1000 B"
+        size = {"memories": "5", "bytes": "1000", "bits wide": "96", "built as": "SRAM"}
+        return {"use": name, "arithmetic": entries, **size}
+
+    def drawn(self, *more: str, without: str = "") -> str:
+        names = [*block_diagram.SHARED, *self.FIFOS, *more]
+        names += [name for block in block_diagram.BLOCKS for name in block.uses]
+        lanes = [name for block in block_diagram.BLOCKS for name in block.datapaths]
+        return block_diagram.svg(
+            "exact",
+            self.KEYS,
+            [{"datapath": name, "lanes": "20 fp32_lane"} for name in lanes],
+            [self.use(name) for name in names if name != without],
+            [self.MEMORY],
+        )
+
+    def text(self, svg: str) -> list[str]:
+        root = xml.etree.ElementTree.fromstring(svg)
+        return [element.text for element in root.iter() if element.tag.endswith("text")]
+
+    def test_sizes_are_those_of_the_data_sheet(self):
+        text = self.text(self.drawn("chunk queue 0", "chunk queue 1"))
+        for expected in (
+            *("preset exact: 1000 MHz, groups of 3 x 3 px", "3 x HFU, coarse", "1 x merge"),
+            *("tests first halves: 20 lanes, fp32", "blends: 20 + 80 lanes, fp32"),
+            "5 memory ports: 64 B a cycle each way, 16 requests in flight each",
+            *("3,000 B chunk queue, 8,000 B more", "visits: 5 FIFOs of 7, 96 bits"),
+            *("DRAM, 25.6 GB/s", "lpddr: 4 channels of 32 bits"),
+        ):
+            self.assertIn(expected, text)
+
+    def test_each_memory_has_a_place(self):
+        said = "block diagram: {}: expected in one block"
+        with self.assertRaisesRegex(ValueError, said.format("a table")):
+            self.drawn("a table")
+        with self.assertRaisesRegex(ValueError, said.format("pixel state")):
+            self.drawn(without="pixel state")
 
 
 if __name__ == "__main__":
