@@ -23,7 +23,7 @@ for both of its sides.
                over views, or the largest of what an accelerator has (config, sram, area_mm2); or
                sum(PATH), mean(PATH), min(PATH), max(PATH), p99(PATH) over all views of all scenes;
                or geomean(PATH), geometric over the scenes, of the means over their views. Names:
-               fps, cycles, seconds, dram_bytes, joules, watts, mm2, psnr_db; sram_bytes;
+               fps, cycles, seconds, dram_bytes, joules, watts, mm2, mm2_with_phy, psnr_db; sram_bytes;
                filter_lanes, the multiply-accumulate lanes of coarse and fine filters
   --objectives MEASURE,..., each to be small, or large with max: before it. worst(PATH) is the
                largest of what should be small, the smallest of what should be large
