@@ -85,6 +85,10 @@ void visit(ConfigVisitor& v, Memspec& m) {
   v.section("organisation", m.organisation, "sizes");
   v("clock_period_ns", m.clock_period_ns, in_range(0.1, 100.0), "tCK; two beats each");
   v.section("timing_cycles", m.timing_cycles, "constraints in clock cycles, named as by JESD209-3");
+  v("refresh_order", m.refresh_order,
+    names<RefreshOrder>({{"in_turn", RefreshOrder::kInTurn}, {"any", RefreshOrder::kAny}}),
+    "banks of per-bank refresh: in_turn: the device's counter names them (LPDDR3); any: the "
+    "command does, each once before any twice (LPDDR4)");
   v("io_pj_per_bit", m.io_pj_per_bit, in_range(0.0, 100.0),
     "I/O energy of a transferred bit, which no set of currents has");
   v("default_currents", m.default_currents, "the set that is used where none is asked for");
@@ -217,7 +221,8 @@ class MemspecCheck {
 
   void sources(const std::vector<std::string>& timing_keys) const {
     std::vector<std::string> known = timing_keys;
-    known.insert(known.end(), {"organisation", "clock_period_ns", "io_pj_per_bit"});
+    known.insert(known.end(),
+                 {"organisation", "clock_period_ns", "refresh_order", "io_pj_per_bit"});
     for (const auto& set : m_.currents) known.push_back("currents." + set.first);
     const auto stated = [&](const std::string& key) {
       return m_.sources.count(key) > 0 && !m_.sources.at(key).empty();

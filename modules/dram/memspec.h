@@ -11,6 +11,10 @@
 
 namespace sgs {
 
+// Which bank a per-bank refresh goes to: the one that the device's counter names, or one that the
+// controller names. Each has its turn before any has a second one.
+enum class RefreshOrder { kInTurn, kAny };
+
 constexpr const char* kDefaultSource = "default";
 
 struct Memspec {
@@ -69,6 +73,7 @@ struct Memspec {
   Organisation organisation;
   double clock_period_ns = 0;
   Timing timing_cycles;
+  RefreshOrder refresh_order = RefreshOrder::kInTurn;
   double io_pj_per_bit = -1;                 // of each transferred bit; negative: not stated
   std::string default_currents;              // which set is used when none is asked for
   std::map<std::string, Currents> currents;  // by the name of the published set
