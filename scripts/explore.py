@@ -210,8 +210,13 @@ def area_band(work: Work, kept: SweepServer) -> str:
     own = of_scene(best.assignments, label(task.views[0][0].name))
     views = simulate(kept.binary, task.small_run(own)).views
     band = value_at(views[0], "area_mm2.bands.total") if views else None
+    if not band:
+        return ""
+    with_phy = value_at(views[0], "area_mm2.with_memory_interface")
     return (
-        f"mm2 of the best: {band['low']:.2f} to {band['high']:.2f} by its sources." if band else ""
+        f"mm2 of the best: {band['low']:.2f} to {band['high']:.2f} by its sources; "
+        f"{with_phy['middle']:.2f} ({with_phy['low']:.2f} to {with_phy['high']:.2f}) with PHY and "
+        "controller of the memory."
     )
 
 
