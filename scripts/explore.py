@@ -24,7 +24,7 @@ for both of its sides.
                over views, or the largest of what an accelerator has (config, sram, area_mm2); or
                sum(PATH), mean(PATH), min(PATH), max(PATH), p99(PATH) over all views of all scenes;
                or geomean(PATH), geometric over the scenes, of the means over their views. Names:
-               fps, cycles, seconds, dram_bytes, joules, watts, mm2, psnr_db; sram_bytes;
+               fps, cycles, seconds, dram_bytes, joules, watts, mm2, mm2_with_phy, psnr_db; sram_bytes;
                filter_lanes, the multiply-accumulate lanes of coarse and fine filters
   --objectives MEASURE,..., each to be small, or large with max: before it. worst(PATH) is the
                largest of what should be small, the smallest of what should be large
@@ -236,8 +236,13 @@ def area_band(work: Work, kept: SweepServer) -> str:
     own = of_scene(best.assignments, label(task.views[0][0].name))
     views = simulate(kept.binary, task.small_run(own)).views
     band = value_at(views[0], "area_mm2.bands.total") if views else None
+    if not band:
+        return ""
+    with_phy = value_at(views[0], "area_mm2.with_memory_interface")
     return (
-        f"mm2 of the best: {band['low']:.2f} to {band['high']:.2f} by its sources." if band else ""
+        f"mm2 of the best: {band['low']:.2f} to {band['high']:.2f} by its sources; "
+        f"{with_phy['middle']:.2f} ({with_phy['low']:.2f} to {with_phy['high']:.2f}) with PHY and "
+        "controller of the memory."
     )
 
 

@@ -118,6 +118,63 @@ def machine_page(title: str, presets: dict[str, Described]) -> str:
     ).rstrip("\n") + "\n"
 
 
+# A line of a commented memspec: a key, what opens or its value, and what is said of it.
+MEMSPEC_LINE = re.compile(r'\s*"(?P<key>[\w.]+)": (?P<value>.*?),?(?:  // (?P<said>.*))?')
+MEMSPEC = "lpddr3_1600_4gb"
+# Units stand at the ends of keys.
+UNITS = {
+    "_bits": "bit",
+    "_ns": "ns",
+    "_pj_per_bit": "pJ",
+    "_cycles": "clock cycles",
+    "_ma": "mA",
+    "_v": "V",
+}
+
+
+def unit_of(path: str) -> str:
+    """Of the last part of a key's path that has one."""
+    for part in reversed(path.split(".")):
+        for end, unit in UNITS.items():
+            if f"_{part}".endswith(end):
+                return unit
+    return ""
+
+
+def memspec_table(command: str) -> str:
+    """Every key of a memspec: of the sets of currents one, of sources those that stand for all."""
+    run = subprocess.run(
+        [command, "describe", "--memspec", MEMSPEC], capture_output=True, text=True, check=True
+    )
+    rows: list[list[str]] = []
+    path: list[str] = []
+    for line in run.stdout.splitlines():
+        if line.strip(" ,") == "}" and path:
+            path.pop()
+        elif found := MEMSPEC_LINE.fullmatch(line):
+            at = ".".join([*path, found["key"]])
+            if found["value"] == "{":
+                path.append("NAME" if path == ["currents"] else found["key"])
+                if found["key"] == "sources":
+                    rows.append(["`sources.KEY`", "", "text", "", found["said"]])
+            elif found["said"] and all(row[0] != f"`{at}`" for row in rows):
+                allowed, meaning = found["said"].split(": ", 1)
+                rows.append([f"`{at}`", f"`{found['value']}`", allowed, unit_of(at), meaning])
+    if not rows:
+        raise ValueError(f"{command} describe --memspec {MEMSPEC}: the table is empty")
+    return table(["key", MEMSPEC, "allowed", "unit", "meaning"], rows)
+
+
+def memory_page(command: str, exact: Described) -> str:
+    return (
+        f"# The memory: keys\n\n{WRITTEN_BY}"
+        + key_table({"default": exact}, lambda key: key.startswith(MEMORY))
+        + "## Keys of a memspec\n\n"
+        f"`streaminggs describe --memspec {MEMSPEC}` prints them as a template with comments.\n\n"
+        + memspec_table(command)
+    ).rstrip("\n") + "\n"
+
+
 def pages(command: str) -> dict[str, str]:
     """[path below the repository] what stands there."""
     exact, paper, gscore = (described(command, name) for name in ("exact", "paper", "gscore"))
@@ -126,9 +183,7 @@ def pages(command: str) -> dict[str, str]:
             "The streaming machines", {"exact": exact, "paper": paper}
         ),
         "modules/gscore/KEYS.md": machine_page("The tile-centric machine", {"gscore": gscore}),
-        "modules/dram/KEYS.md": f"# The memory: keys\n\n{WRITTEN_BY}"
-        + key_table({"default": exact}, lambda key: key.startswith(MEMORY)).rstrip("\n")
-        + "\n",
+        "modules/dram/KEYS.md": memory_page(command, exact),
         "algorithm/memory/KEYS.md": f"# How scenes are stored: keys\n\n{WRITTEN_BY}"
         + key_table(
             {"exact": exact, "paper": paper, "gscore": gscore},

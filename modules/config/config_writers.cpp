@@ -1,6 +1,7 @@
-// Visitors that write a configuration: as JSON, and as a list for people.
+// Visitors that write a configuration: as JSON, with comments or without, and as a list for people.
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "algorithm/files/input_error.h"
@@ -48,29 +49,25 @@ class JsonWriter : public ConfigWriter {
   std::vector<std::pair<std::string, Json>> stack_{{"", Json::object()}};
 };
 
-class ListingWriter : public ConfigWriter {
- public:
-  std::string text() const override { return text_; }
-
+// What it writes says of each key which values are allowed and what they mean.
+class ExplainingWriter : public ConfigWriter {
  protected:
   void on_bool(const char* key, bool& value, const char* doc) override {
-    line(key, value ? "true" : "false", "true, false", doc);
+    line(key, value, "true, false", doc);
   }
   void on_string(const char* key, std::string& value, const char* doc) override {
     line(key, value, "text", doc);
   }
   void on_real(const char* key, double& value, ConfigRange range, const char* doc) override {
-    line(key, fmt::format("{}", value), interval(range), doc);
+    line(key, value, interval(range), doc);
   }
   void on_reals(const char* key, std::vector<double>& value, ConfigRange range,
                 const char* doc) override {
-    std::vector<std::string> texts;
-    for (const double one : value) texts.push_back(fmt::format("{}", one));
-    line(key, "[" + join(texts) + "]", interval(range), doc);
+    line(key, value, interval(range), doc);
   }
   void on_integer(const char* key, std::int64_t& value, ConfigRange range,
                   const char* doc) override {
-    line(key, fmt::format("{}", value),
+    line(key, value,
          fmt::format("{}..{}", static_cast<std::int64_t>(range.lo),
                      static_cast<std::int64_t>(range.hi)),
          doc);
@@ -79,29 +76,98 @@ class ListingWriter : public ConfigWriter {
                  const char* doc) override {
     line(key, allowed[index], join(allowed), doc);
   }
-  void begin_section(const char* key, const char*) override {
-    path_.push_back(std::string(key) + ".");
-  }
-  void end_section() override { path_.pop_back(); }
   std::vector<std::string> free_keys(const std::vector<std::string>& present) override {
     return present;
   }
+  virtual void line(const char* key, const Json& value, const std::string& allowed,
+                    const char* doc) = 0;
 
  private:
   static std::string interval(ConfigRange range) {
     return fmt::format("{}..{}", static_cast<double>(range.lo), static_cast<double>(range.hi));
   }
-  void line(const std::string& key, const std::string& value, const std::string& allowed,
-            const char* doc) {
-    text_ += fmt::format("{}{} = {}  ({})  {}\n", join(path_, ""), key, value, allowed, doc);
+};
+
+class ListingWriter : public ExplainingWriter {
+ public:
+  std::string text() const override { return text_; }
+
+ protected:
+  void begin_section(const char* key, const char*) override {
+    path_.push_back(std::string(key) + ".");
   }
+  void end_section() override { path_.pop_back(); }
+  void line(const char* key, const Json& value, const std::string& allowed,
+            const char* doc) override {
+    text_ += fmt::format("{}{} = {}  ({})  {}\n", join(path_, ""), key, plain(value), allowed, doc);
+  }
+
+ private:
+  static std::string plain(const Json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number_float()) return fmt::format("{}", value.get<double>());
+    if (!value.is_array()) return value.dump();
+    std::vector<std::string> texts;
+    for (const Json& one : value) texts.push_back(plain(one));
+    return "[" + join(texts) + "]";
+  }
+
   std::vector<std::string> path_;
   std::string text_;
+};
+
+// JSON with a comment behind each key: what is allowed, and what it means.
+class CommentedWriter : public ExplainingWriter {
+ public:
+  std::string text() const override {
+    std::string all = "{\n";
+    for (const Line& line : lines_) {
+      all += line.json + (line.comma ? "," : "");
+      all += line.comment.empty() ? "\n" : "  // " + line.comment + "\n";
+    }
+    return all + "}\n";
+  }
+
+ protected:
+  void begin_section(const char* key, const char* doc) override {
+    add(fmt::format("{}{}: {{", indent(), Json(key).dump()), doc);
+    last_.push_back(kNone);
+  }
+  void end_section() override {
+    last_.pop_back();
+    lines_.push_back({indent() + "}", "", false});
+    last_.back() = lines_.size() - 1;
+  }
+  void line(const char* key, const Json& value, const std::string& allowed,
+            const char* doc) override {
+    const std::string comment = *doc == '\0' ? "" : fmt::format("{}: {}", allowed, doc);
+    add(fmt::format("{}{}: {}", indent(), Json(key).dump(), value.dump()), comment);
+  }
+
+ private:
+  static constexpr std::size_t kNone = SIZE_MAX;
+  struct Line {
+    std::string json, comment;
+    bool comma;  // another entry of the same object follows
+  };
+
+  std::string indent() const { return std::string(2 * last_.size(), ' '); }
+  void add(std::string json, std::string comment) {
+    if (last_.back() != kNone) lines_[last_.back()].comma = true;
+    last_.back() = lines_.size();
+    lines_.push_back({std::move(json), std::move(comment), false});
+  }
+
+  std::vector<Line> lines_;
+  std::vector<std::size_t> last_{kNone};  // [level] the last entry's line
 };
 
 }  // namespace
 
 std::unique_ptr<ConfigWriter> make_json_writer() { return std::make_unique<JsonWriter>(); }
+std::unique_ptr<ConfigWriter> make_commented_writer() {
+  return std::make_unique<CommentedWriter>();
+}
 std::unique_ptr<ConfigWriter> make_listing_writer() { return std::make_unique<ListingWriter>(); }
 
 }  // namespace sgs

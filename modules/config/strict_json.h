@@ -72,12 +72,21 @@ class ConfigWriter : public ConfigVisitor {
   virtual std::string text() const = 0;
 };
 std::unique_ptr<ConfigWriter> make_json_writer();
+std::unique_ptr<ConfigWriter> make_commented_writer();
 std::unique_ptr<ConfigWriter> make_listing_writer();
 
 // A configuration as indented JSON: what --print-config prints, readable again.
 template <class Struct>
 std::string config_to_json(Struct config) {
   const std::unique_ptr<ConfigWriter> writer = make_json_writer();
+  visit(static_cast<ConfigVisitor&>(*writer), config);
+  return writer->text();
+}
+
+// The same, each key with a comment: "rcd": 15,  // 1..1000000: activate to read or write
+template <class Struct>
+std::string config_to_commented_json(Struct config) {
+  const std::unique_ptr<ConfigWriter> writer = make_commented_writer();
   visit(static_cast<ConfigVisitor&>(*writer), config);
   return writer->text();
 }

@@ -40,6 +40,7 @@ std::uint64_t ArrivalOrderChannel::serve(const ChannelRequest& request, std::uin
     outcome = RowOutcome::kHit;
   }
   last_column_ = std::max(last_column_, at);
+  maintenance_[request.rank].on_waiting(std::uint64_t{1} << request.bank, arrival);
   hand_out_before(arrival);
   return at + (reads ? device_.derived().read_data_end : device_.derived().write_data_end) +
          path_.back_end(request.direction);

@@ -4,7 +4,8 @@
 // Rows are opened ahead of the columns before them, as a queue would. Columns keep to the order of
 // arrival: reads and writes are not grouped, hits do not overtake, and a bank conflict delays all
 // later requests. Sequential streams take as long as in queues, random ones up to a third longer.
-// Rows stay open; refreshes are not postponed.
+// Rows stay open; refreshes are not postponed. Those that may go to any bank avoid the last one
+// read or written.
 #pragma once
 
 #include <cstdint>

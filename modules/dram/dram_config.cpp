@@ -9,6 +9,10 @@
 
 namespace sgs {
 
+double DramConfig::io_pj_per_bit_of(const Memspec& device) const {
+  return io_pj_per_bit < 0 ? device.io_pj_per_bit : io_pj_per_bit;
+}
+
 void DramConfig::validate() const {
   const auto refuse = [](const char* key, const std::string& got, const std::string& expected) {
     throw InputError(fmt::format("dram.{}: got {}, expected {}", key, got, expected));

@@ -8,6 +8,8 @@
 
 namespace sgs {
 
+struct Memspec;
+
 enum class BankHash { kNone, kXor };
 enum class WriteLatencySet { kA, kB };
 enum class ReadStrobe { kMin, kMax };
@@ -43,7 +45,9 @@ struct DramConfig {
   std::uint32_t self_refresh_idle_cycles = 0;
 
   std::string current_set;
-  double io_pj_per_bit = 3.0;  // a stated adder: no published set separates VDDQ
+  double io_pj_per_bit = -1;  // negative: the memspec's
+
+  double io_pj_per_bit_of(const Memspec& device) const;
 
   // InputError naming the key, what it is and what is allowed. Loads the memspec.
   void validate() const;
@@ -98,8 +102,8 @@ inline void visit(ConfigVisitor& v, DramConfig& c) {
   v("self_refresh_idle_cycles", c.self_refresh_idle_cycles, in_range(0, 100000000),
     "idle time of a rank before self-refresh; 0: never");
   v("current_set", c.current_set, "set of currents of the memspec; empty: its default");
-  v("io_pj_per_bit", c.io_pj_per_bit, in_range(0.0, 100.0),
-    "I/O energy added to each transferred bit");
+  v("io_pj_per_bit", c.io_pj_per_bit, in_range(-1.0, 100.0),
+    "I/O energy added to each transferred bit; negative: the memspec's");
 }
 
 }  // namespace sgs

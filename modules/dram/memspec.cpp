@@ -19,72 +19,83 @@ bool power_of_two(std::uint64_t n) { return n != 0 && (n & (n - 1)) == 0; }
 }  // namespace
 
 static void visit(ConfigVisitor& v, Memspec::Organisation& o) {
-  v("width_bits", o.width_bits, in_range(8, 128), "data bus of a channel");
-  v("burst_length", o.burst_length, in_range(2, 32), "beats a burst");
-  v("banks", o.banks, in_range(1, 64), "banks a rank");
-  v("rows", o.rows, in_range(1, 1 << 20), "rows a bank");
-  v("columns", o.columns, in_range(1, 1 << 16), "columns a row, each width_bits wide");
+  v("width_bits", o.width_bits, in_range(8, 128), "data bus of a channel, a power of two");
+  v("burst_length", o.burst_length, in_range(2, 32), "beats a burst, two a clock; a power of two");
+  v("banks", o.banks, in_range(1, 64), "banks a rank, a power of two");
+  v("rows", o.rows, in_range(1, 1 << 20), "rows a bank, a power of two");
+  v("columns", o.columns, in_range(1, 1 << 16),
+    "columns a row, each width_bits wide; a power of two and a multiple of burst_length");
 }
 
 static void visit(ConfigVisitor& v, Memspec::Timing& t) {
   const ConfigRange cycles = in_range(1, 1000000);
-  v("read_latency", t.read_latency, cycles, "RL");
-  v("write_latency_a", t.write_latency_a, cycles, "WL, mode-register set A");
-  v("write_latency_b", t.write_latency_b, cycles, "WL, mode-register set B");
-  v("rcd", t.rcd, cycles, "activate to read or write");
-  v("rp_bank", t.rp_bank, cycles, "precharge of one bank");
-  v("rp_all", t.rp_all, cycles, "precharge of all banks");
-  v("ras", t.ras, cycles, "activate to precharge");
-  v("rc", t.rc, cycles, "activate to activate, same bank");
-  v("ccd", t.ccd, cycles, "column to column command");
-  v("rrd", t.rrd, cycles, "activate to activate, other bank");
-  v("faw", t.faw, cycles, "window of four activates");
-  v("rtp", t.rtp, cycles, "read to precharge");
-  v("wr", t.wr, cycles, "end of write data to precharge");
-  v("wtr", t.wtr, cycles, "end of write data to read");
-  v("dqsck_min", t.dqsck_min, in_range(0, 1000), "clock to strobe, shortest");
-  v("dqsck_max", t.dqsck_max, in_range(0, 1000), "clock to strobe, longest");
-  v("rfc_all", t.rfc_all, cycles, "all-bank refresh");
-  v("rfc_bank", t.rfc_bank, cycles, "per-bank refresh");
-  v("refi", t.refi, cycles, "interval of all-bank refreshes");
-  v("refi_bank", t.refi_bank, cycles, "interval of per-bank refreshes");
-  v("xp", t.xp, cycles, "power-down exit to command");
-  v("cke", t.cke, cycles, "shortest power-down");
-  v("cke_self_refresh", t.cke_self_refresh, cycles, "shortest self-refresh");
-  v("xsr", t.xsr, cycles, "self-refresh exit to command");
-  v("rtrs", t.rtrs, in_range(0, 1000), "data bus hand-over between ranks");
-  v("ras_max", t.ras_max, cycles, "longest time a row stays open");
+  v("read_latency", t.read_latency, cycles, "RL: read command to the first datum, without tDQSCK");
+  v("write_latency_a", t.write_latency_a, cycles,
+    "WL: write command to the first datum, mode-register set A");
+  v("write_latency_b", t.write_latency_b, cycles, "WL of mode-register set B; equal where one is");
+  v("rcd", t.rcd, cycles, "tRCD: activate to read or write");
+  v("rp_bank", t.rp_bank, cycles, "tRPpb: precharge of one bank to its next activate");
+  v("rp_all", t.rp_all, cycles, "tRPab: precharge of all banks, at least rp_bank");
+  v("ras", t.ras, cycles, "tRAS: activate to precharge, at least rcd");
+  v("rc", t.rc, cycles, "tRC: activate to activate of one bank, at least ras");
+  v("ccd", t.ccd, cycles, "tCCD: column to column command, at least burst_length / 2");
+  v("rrd", t.rrd, cycles, "tRRD: activate to activate of another bank");
+  v("faw", t.faw, cycles, "tFAW: window of at most four activates, at least rrd");
+  v("rtp", t.rtp, cycles, "tRTP: read to precharge");
+  v("wr", t.wr, cycles, "tWR: end of write data to precharge");
+  v("wtr", t.wtr, cycles, "tWTR: end of write data to read");
+  v("dqsck_min", t.dqsck_min, in_range(0, 1000), "tDQSCK: clock to strobe of a read, shortest");
+  v("dqsck_max", t.dqsck_max, in_range(0, 1000), "tDQSCK, longest");
+  v("rfc_all", t.rfc_all, cycles, "tRFCab: all-bank refresh");
+  v("rfc_bank", t.rfc_bank, cycles, "tRFCpb: per-bank refresh");
+  v("refi", t.refi, cycles, "tREFI: interval of all-bank refreshes, more than rfc_all + rcd");
+  v("refi_bank", t.refi_bank, cycles,
+    "tREFIpb: interval of per-bank refreshes, more than rfc_bank; as a rule refi / banks");
+  v("xp", t.xp, cycles, "tXP: power-down exit to the next command");
+  v("cke", t.cke, cycles, "tCKE: shortest power-down");
+  v("cke_self_refresh", t.cke_self_refresh, cycles, "tCKESR: shortest self-refresh");
+  v("xsr", t.xsr, cycles, "tXSR: self-refresh exit to the next command");
+  v("rtrs", t.rtrs, in_range(0, 1000), "tRTRS: data bus hand-over between ranks");
+  v("ras_max", t.ras_max, cycles, "longest time that a row may stay open, more than refi");
 }
 
 static void visit(ConfigVisitor& v, Memspec::Rail& r) {
   const ConfigRange ma = in_range(0.0, 10000.0);
-  v("idd0", r.idd0, ma, "activate-precharge");
+  v("idd0", r.idd0, ma, "activate and precharge, one each tRC");
   v("idd2p", r.idd2p, ma, "precharged power-down");
   v("idd2n", r.idd2n, ma, "precharged standby");
   v("idd3p", r.idd3p, ma, "active power-down");
   v("idd3n", r.idd3n, ma, "active standby");
-  v("idd4r", r.idd4r, ma, "read bursts");
-  v("idd4w", r.idd4w, ma, "write bursts");
-  v("idd5", r.idd5, ma, "all-bank refresh bursts");
+  v("idd4r", r.idd4r, ma, "read bursts without gaps");
+  v("idd4w", r.idd4w, ma, "write bursts without gaps");
+  v("idd5", r.idd5, ma, "all-bank refreshes without gaps");
   v("idd6", r.idd6, ma, "self-refresh");
 }
 
 static void visit(ConfigVisitor& v, Memspec::Currents& c) {
   v("vdd1_v", c.vdd1_v, in_range(0.1, 5.0), "first rail");
   v("vdd2_v", c.vdd2_v, in_range(0.1, 5.0), "second rail");
-  v.section("vdd1_ma", c.vdd1_ma, "currents of the first rail");
-  v.section("vdd2_ma", c.vdd2_ma, "currents of the second rail");
+  v.section("vdd1_ma", c.vdd1_ma, "first rail of one rank");
+  v.section("vdd2_ma", c.vdd2_ma, "second rail of one rank");
 }
 
 void visit(ConfigVisitor& v, Memspec& m) {
-  v("name", m.name, "the name it is known by");
+  v("name", m.name, "what it is called");
   v("description", m.description, "what device it is");
   v.section("organisation", m.organisation, "sizes");
-  v("clock_period_ns", m.clock_period_ns, in_range(0.1, 100.0), "tCK");
-  v.section("timing_cycles", m.timing_cycles, "constraints, in clock cycles");
-  v("default_currents", m.default_currents, "the set that is used when none is asked for");
-  v.sections("currents", m.currents, "published sets of currents");
-  v.strings("sources", m.sources, "where each number comes from");
+  v("clock_period_ns", m.clock_period_ns, in_range(0.1, 100.0), "tCK; two beats each");
+  v.section("timing_cycles", m.timing_cycles, "constraints in clock cycles, named as by JESD209-3");
+  v("refresh_order", m.refresh_order,
+    names<RefreshOrder>({{"in_turn", RefreshOrder::kInTurn}, {"any", RefreshOrder::kAny}}),
+    "banks of per-bank refresh: in_turn: the device's counter names them (LPDDR3); any: the "
+    "command does, each once before any twice (LPDDR4)");
+  v("io_pj_per_bit", m.io_pj_per_bit, in_range(0.0, 100.0),
+    "I/O energy of a transferred bit, which no set of currents has");
+  v("default_currents", m.default_currents, "the set that is used where none is asked for");
+  v.sections("currents", m.currents, "published sets of currents, each under a name");
+  v.strings("sources", m.sources,
+            "where each number comes from, by its key without timing_cycles; organisation and "
+            "currents.NAME as a whole; default: of all others");
 }
 
 std::vector<std::string> shipped_memspecs() {
@@ -161,6 +172,9 @@ class MemspecCheck {
     require(o.columns >= o.burst_length && o.columns % o.burst_length == 0, "organisation.columns",
             o.columns, fmt::format("a multiple of burst_length {}", o.burst_length));
     require(m_.clock_period_ns > 0, "clock_period_ns", m_.clock_period_ns, "more than 0");
+    if (m_.io_pj_per_bit < 0)
+      throw InputError(fmt::format(
+          "{}: io_pj_per_bit: got nothing, expected picojoules of a transferred bit", origin_));
   }
 
   void timing() const {
@@ -206,15 +220,21 @@ class MemspecCheck {
   }
 
   void sources(const std::vector<std::string>& timing_keys) const {
-    std::vector<std::string> needed = timing_keys;
-    needed.insert(needed.end(), {"organisation", "clock_period_ns"});
-    for (const auto& set : m_.currents) needed.push_back("currents." + set.first);
-    for (const std::string& key : needed)
-      if (m_.sources.count(key) == 0 || m_.sources.at(key).empty())
-        throw InputError(fmt::format("{}: sources.{}: got nothing, expected where '{}' comes from",
-                                     origin_, key, key));
+    std::vector<std::string> known = timing_keys;
+    known.insert(known.end(),
+                 {"organisation", "clock_period_ns", "refresh_order", "io_pj_per_bit"});
+    for (const auto& set : m_.currents) known.push_back("currents." + set.first);
+    const auto stated = [&](const std::string& key) {
+      return m_.sources.count(key) > 0 && !m_.sources.at(key).empty();
+    };
+    for (const std::string& key : known)
+      if (!stated(key) && !stated(kDefaultSource))
+        throw InputError(fmt::format(
+            "{}: sources.{}: got nothing, expected where '{}' comes from, or sources.{}", origin_,
+            key, key, kDefaultSource));
+    known.push_back(kDefaultSource);
     for (const auto& source : m_.sources)
-      if (std::find(needed.begin(), needed.end(), source.first) == needed.end())
+      if (std::find(known.begin(), known.end(), source.first) == known.end())
         throw InputError(fmt::format("{}: sources.{}: unknown key, expected the name of a number",
                                      origin_, source.first));
   }

@@ -11,6 +11,12 @@
 
 namespace sgs {
 
+// Which bank a per-bank refresh goes to: the one that the device's counter names, or one that the
+// controller names. Each has its turn before any has a second one.
+enum class RefreshOrder { kInTurn, kAny };
+
+constexpr const char* kDefaultSource = "default";
+
 struct Memspec {
   struct Organisation {
     std::uint32_t width_bits = 0;    // data bus of a channel
@@ -67,9 +73,12 @@ struct Memspec {
   Organisation organisation;
   double clock_period_ns = 0;
   Timing timing_cycles;
-  std::string default_currents;                // which set is used when none is asked for
-  std::map<std::string, Currents> currents;    // by the name of the published set
-  std::map<std::string, std::string> sources;  // [key] source of each number
+  RefreshOrder refresh_order = RefreshOrder::kInTurn;
+  double io_pj_per_bit = -1;                 // of each transferred bit; negative: not stated
+  std::string default_currents;              // which set is used when none is asked for
+  std::map<std::string, Currents> currents;  // by the name of the published set
+  // [key] source of a number; [kDefaultSource]: of all that have none of their own.
+  std::map<std::string, std::string> sources;
 
   std::uint32_t burst_bytes() const {
     return organisation.width_bits / 8 * organisation.burst_length;
@@ -89,8 +98,8 @@ void visit(ConfigVisitor& v, Memspec& memspec);
 std::string memspec_path(const std::string& name_or_path);
 
 // Reads a memspec: the name of a shipped one ("lpddr3_1600_4gb") or the path of a JSON file.
-// InputError: not there, not readable as strict JSON, a number without source, or impossible
-// (see check_memspec).
+// InputError: not there, not readable as strict JSON, a number that is missing or has no source, or
+// impossible (see check_memspec).
 Memspec load_memspec(const std::string& name_or_path);
 
 // Names of the shipped memspecs, sorted.

@@ -55,7 +55,15 @@ void QueuedChannel::push(const ChannelRequest& request, std::uint64_t cycle) {
   queue(request.direction).push(entry, bank, device_.open_row(request.rank, request.bank));
   if (waiting_[request.rank]++ == 0) wanted_from_[request.rank] = ready;
   renew_work(bank);
+  if (tell_maintenance(request.rank, cycle)) best_known_ = false;
   revise_best(request, bank);
+}
+
+bool QueuedChannel::tell_maintenance(std::uint32_t rank, std::uint64_t cycle) {
+  const std::uint64_t banks =
+      (reads_.banks_in_use() | writes_.banks_in_use()) >> (rank * device_.banks());
+  return maintenance_[rank].on_waiting(banks & (~std::uint64_t{0} >> (64 - device_.banks())),
+                                       cycle);
 }
 
 void QueuedChannel::advance(std::uint64_t cycle) {
@@ -246,6 +254,7 @@ void QueuedChannel::issue_column(const Candidate& c, std::int32_t index) {
     writes_due_ = 0;
   }
   if (--waiting_[c.rank] == 0) wanted_from_[c.rank] = kNever;
+  tell_maintenance(c.rank, c.cycle + 1);
   const bool more_hits = reads_.oldest_hit(flat_bank) != RequestQueue::kNone ||
                          writes_.oldest_hit(flat_bank) != RequestQueue::kNone;
   const bool close = paging_->close_after(flat_bank, more_hits);

@@ -88,6 +88,8 @@ class QueuedChannel {
   Work work_of(const RequestQueue& queue, std::uint32_t bank) const;
   std::vector<Work>& works(Direction d) { return works_[static_cast<std::size_t>(d)]; }
   void renew_work(std::uint32_t bank);
+  // Tells the rank's maintenance which banks requests wait for; true if that may change the choice.
+  bool tell_maintenance(std::uint32_t rank, std::uint64_t cycle);
   Choice best_of(std::uint64_t banks, Choice best);
   void consider_maintenance();
   void issue_best();

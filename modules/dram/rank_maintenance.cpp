@@ -7,6 +7,10 @@ namespace sgs {
 
 namespace {
 std::uint64_t idle_limit(std::uint32_t cycles) { return cycles == 0 ? kNever : cycles; }
+// Refreshes that JESD209-4 lets wait, here of banks in use; of per-bank ones it allows more.
+constexpr std::uint64_t kMostPostponed = 8;
+
+std::uint64_t all_of(std::uint32_t banks) { return ~std::uint64_t{0} >> (64 - banks); }
 std::uint64_t after(std::uint64_t cycle, std::uint64_t delay) {
   return delay == kNever ? kNever : cycle + delay;
 }
@@ -17,18 +21,48 @@ RankMaintenance::RankMaintenance(const DramConfig& config, const Memspec& memspe
     : mode_(config.refresh),
       rank_(rank),
       banks_(memspec.organisation.banks),
+      any_bank_(config.refresh == RefreshMode::kPerBank &&
+                memspec.refresh_order == RefreshOrder::kAny),
       interval_(config.refresh == RefreshMode::kPerBank ? memspec.timing_cycles.refi_bank
                                                         : memspec.timing_cycles.refi),
       postpone_(interval_ * config.refresh_postpone_max),
+      postpone_in_use_(any_bank_ ? interval_ * kMostPostponed : postpone_),
       power_down_idle_(idle_limit(config.power_down_idle_cycles)),
-      self_refresh_idle_(idle_limit(config.self_refresh_idle_cycles)) {
+      self_refresh_idle_(idle_limit(config.self_refresh_idle_cycles)),
+      due_banks_(all_of(banks_)) {
   if (mode_ == RefreshMode::kOff) return;
   refresh_due_ = interval_;
   set_urgency(0);
   set_limits();
 }
 
+bool RankMaintenance::on_waiting(std::uint64_t banks, std::uint64_t cycle) {
+  if (!any_bank_ || banks == waiting_banks_) return false;
+  waiting_banks_ = banks;
+  const std::uint32_t bank = refresh_bank_;
+  const std::uint64_t urgent_from = urgent_from_;
+  choose_bank();
+  if (refresh_bank_ != bank) chosen_from_ = cycle;
+  set_urgency(cycle);
+  set_limits();
+  return refresh_bank_ != bank || urgent_from_ != urgent_from;
+}
+
+void RankMaintenance::choose_bank() {
+  refresh_bank_ = turn_;
+  if (!any_bank_) return;
+  const std::uint64_t idle = due_banks_ & ~waiting_banks_;
+  const std::uint64_t banks = idle != 0 ? idle : due_banks_;
+  const std::uint64_t from_turn = banks >> turn_ << turn_;
+  refresh_bank_ = static_cast<std::uint32_t>(__builtin_ctzll(from_turn != 0 ? from_turn : banks));
+}
+
 void RankMaintenance::set_urgency(std::uint64_t cycle) {
+  if (any_bank_) {
+    const bool in_use = (waiting_banks_ >> refresh_bank_ & 1) != 0;
+    urgent_from_ = refresh_due_ + (in_use ? postpone_in_use_ : postpone_);
+    return;
+  }
   // Once owed refreshes are being worked off they go back to back: that is what postponing gains.
   const bool still_owed = refresh_due_ <= cycle && urgent_from_ <= cycle;
   urgent_from_ = still_owed ? refresh_due_ : refresh_due_ + postpone_;
@@ -72,6 +106,7 @@ Candidate RankMaintenance::next(const DeviceTiming& device, std::uint64_t wanted
 
 Candidate RankMaintenance::refresh(const DeviceTiming& device, std::uint64_t from) const {
   if (mode_ == RefreshMode::kPerBank) {
+    from = std::max(from, chosen_from_);
     if (device.open_row(rank_, refresh_bank_) != kNoRow)
       return {std::max(from, device.earliest(RequestCommand::kPrecharge, rank_, refresh_bank_)),
               Command::kPrecharge, rank_, refresh_bank_};
@@ -114,11 +149,16 @@ void RankMaintenance::on_command(Command command, std::uint64_t cycle) {
       // The device has refreshed itself; the standard asks for one refresh after leaving.
       if (mode_ != RefreshMode::kOff) {
         refresh_due_ = cycle;
+        due_banks_ = all_of(banks_);
+        choose_bank();
         set_urgency(0);
       }
       break;
     case Command::kRefreshBank:
-      refresh_bank_ = (refresh_bank_ + 1) % banks_;
+      due_banks_ &= ~(std::uint64_t{1} << refresh_bank_);
+      if (due_banks_ == 0) due_banks_ = all_of(banks_);
+      turn_ = (refresh_bank_ + 1) % banks_;
+      choose_bank();
       [[fallthrough]];
     case Command::kRefreshAll:
       refresh_due_ += interval_;

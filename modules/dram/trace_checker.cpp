@@ -170,7 +170,13 @@ void TraceChecker::check_state(const CommandRecord& r, const Rank& rank, Verdict
   if (r.command == C::kActivate && bank.open) verdict.forbid("activate of an open bank");
   if ((self & (kReads | kWrites)) != 0 && !bank.open) verdict.forbid("column of a closed bank");
   if ((self & kNeedsClosedRank) != 0 && any_open) verdict.forbid("refresh with an open bank");
-  if (r.command == C::kRefreshBank && bank.open) verdict.forbid("refresh of an open bank");
+  if (r.command != C::kRefreshBank) return;
+  if (bank.open) verdict.forbid("refresh of an open bank");
+  if (memspec_.refresh_order == RefreshOrder::kAny) {
+    if ((rank.had_their_turn >> r.bank & 1) != 0) verdict.forbid("refreshed again before others");
+  } else if (r.bank != rank.next_bank) {
+    verdict.forbid("refresh out of turn");
+  }
 }
 
 void TraceChecker::check_distances(const CommandRecord& r, const Channel& channel,
@@ -259,11 +265,18 @@ void TraceChecker::apply(const CommandRecord& r) {
       rank.self_refresh = false;
       rank.refreshes_due_from = r.cycle;
       rank.refreshes = 0;
+      rank.had_their_turn = 0;
       break;
     default:
       break;
   }
   if (r.command == C::kRefreshAll || r.command == C::kRefreshBank) ++rank.refreshes;
+  if (r.command == C::kRefreshBank) {
+    const std::size_t banks = rank.banks.size();
+    rank.next_bank = (rank.next_bank + 1) % static_cast<std::uint32_t>(banks);
+    rank.had_their_turn |= std::uint64_t{1} << r.bank;
+    if (rank.had_their_turn == ~std::uint64_t{0} >> (64 - banks)) rank.had_their_turn = 0;
+  }
   if (contains(kActivations, r.command)) {
     rank.activations.push_back(r.cycle);
     if (rank.activations.size() > 4) rank.activations.pop_front();

@@ -27,11 +27,12 @@ from drawing.figure import (
 )
 
 # What is drawn across where it is there, and what is drawn up beside what is required.
-ACROSS = ("mm2", "area_mm2.total", "sram_bytes", "filter_lanes")
+ACROSS = ("mm2", "mm2_with_phy", "area_mm2.total", "sram_bytes", "filter_lanes")
 UP = ("cycles", "seconds", "joules", "watts", "dram_bytes", "fps", "psnr_db")
 # In which a column is drawn, and how many of its own unit that is.
 UNITS = {
     "mm2": ("area, mm²", 1),
+    "mm2_with_phy": ("area with the memory's PHY and controller, mm²", 1),
     "area_mm2.total": ("area, mm²", 1),
     "cycles": ("M cycles", 1e6),
     "seconds": ("ms", 1e-3),

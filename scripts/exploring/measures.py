@@ -45,6 +45,7 @@ NAMES = {
     "joules": "energy.total_j",
     "watts": "energy.mean_power_w",
     "mm2": "area_mm2.total",
+    "mm2_with_phy": "area_mm2.with_memory_interface.middle",
     "psnr_db": "image.psnr_db",
 }
 COMPUTED: dict[str, Callable[[dict], float]] = {

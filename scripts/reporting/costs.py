@@ -91,9 +91,26 @@ def energy(view: dict) -> str:
     )
 
 
+def owners(view: dict) -> str:
+    """Square millimetres of each kind of unit, its on-chip memory included, the largest first."""
+    by_owner = view["area_mm2"].get("by_owner")
+    if not by_owner:
+        return ""
+    whole = sum(by_owner.values())
+    rows = []
+    for name in sorted(by_owner, key=lambda name: -by_owner[name]):
+        what = f"{name}: {number(by_owner[name])} mm²"
+        drawn = charts.bar([("logic", by_owner[name] / max(by_owner.values()), what)])
+        shares = (number(by_owner[name]), percent(by_owner[name] / whole))
+        rows.append((name.replace("_", " "), drawn, shares))
+    caption = "Area by owner: each unit with its on-chip memory; PHY and controller of the memory"
+    return charts.bars(("owner", "mm²", "share"), rows, caption)
+
+
 def area(view: dict) -> str:
     caption = f"Area at {view['provenance']['technology']}; lines: what the sources allow"
-    return cost_bars(view["area_mm2"], "", 1, "mm²", caption, component_colours(view))
+    by_kind = cost_bars(view["area_mm2"], "", 1, "mm²", caption, component_colours(view))
+    return by_kind + owners(view)
 
 
 def ways_of_bytes(dram: dict) -> dict[str, int]:

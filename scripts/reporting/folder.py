@@ -229,7 +229,11 @@ VIEW = {
         "bus_bytes_by_region": Each(NUMBER),
     },
     "energy": {**numbers("total_j", "mean_power_w"), **BANDS},
-    "area_mm2": {**numbers("total"), **BANDS},
+    "area_mm2": {
+        **{**numbers("total"), **BANDS},
+        "with_memory_interface?": numbers("low", "middle", "high"),
+        "by_owner?": Each(NUMBER),
+    },
     "left_out": [{"what": TEXT, "count": NUMBER, "why": TEXT, "saves": TEXT}],
     "host": numbers("simulation_wall_s"),
     "config": CONFIG,

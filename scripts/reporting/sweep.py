@@ -21,6 +21,7 @@ from runs.files import read_text
 DONE = "done"
 STATUSES = (DONE, "refused", "failed")
 MEMORIES = ("input", "codebook", "shared", "buffer")
+WITH_PHY = "area_mm2.with_memory_interface.middle"  # results of earlier programs lack it
 BINDING = "binding.unit"  # of PATHS the one that is no number
 # Of a report, and columns of the table of the same names.
 PATHS = (
@@ -30,6 +31,7 @@ PATHS = (
     "area_mm2.total",
     "image.psnr_db",
     "dram.bytes",
+    WITH_PHY,
     BINDING,
     *(f"sram.{memory}_available_bytes" for memory in MEMORIES),
 )
@@ -202,6 +204,7 @@ MEASURES: dict[str, Callable[[Sequence[Point]], float]] = {
     "fps": lambda points: min(point.told["frame.fps"] for point in points),
     "mJ": lambda points: 1e3 * total(points, "energy.total_j"),
     "mm2": lambda points: max(point.told["area_mm2.total"] for point in points),
+    "mm2 with PHY": lambda points: max(point.told.get(WITH_PHY, math.nan) for point in points),
     "PSNR dB": lambda points: min(map(psnr_db, points)),
     "DRAM MB": lambda points: sum(point.told.get("dram.bytes", 0) for point in points) / 1e6,
     "SRAM KB": lambda points: max(map(sram_kb, points)),
@@ -234,6 +237,8 @@ class Machine:
 def cell(value: float) -> str:
     if isinstance(value, int):
         return str(value)
+    if math.isnan(value):
+        return ""
     return "equal" if value == math.inf else f"{value:.6g}"
 
 

@@ -10,7 +10,7 @@ from reporting import charts
 from reporting.charts import escaped, number
 from reporting.costs import KINDS_OF_ENERGY, WAYS, kinds_of_energy, ways_of_bytes
 from reporting.folder import Run, Table, ViewFiles
-from reporting.view import quality
+from reporting.view import mm2_with_phy, quality
 
 MOST_ROWS = 2000  # of a table that are shown
 # Columns that are drawn at first where they are there, the likelier ones first.
@@ -238,6 +238,7 @@ def table_of_views(runs: Sequence[Run]) -> Table:
         "mJ",
         "W",
         "mm2",
+        "mm2 with PHY",
         "binds",
     )
     rows = []
@@ -258,6 +259,7 @@ def table_of_views(runs: Sequence[Run]) -> Table:
                     number(1e3 * energy["total_j"]),
                     number(energy["mean_power_w"]),
                     number(view["area_mm2"]["total"]),
+                    mm2_with_phy(view),
                     view["binding"]["unit"],
                 )
             )

@@ -12,6 +12,12 @@ def quality(view: dict) -> str:
     return "equal" if psnr_db is None else f"{psnr_db:.2f} dB"
 
 
+def mm2_with_phy(view: dict) -> str:
+    """With PHY and controller of the memory; empty where an earlier program made the report."""
+    band = view["area_mm2"].get("with_memory_interface")
+    return number(band["middle"]) if band else ""
+
+
 def of_the_model(view: dict) -> str:
     """How the picture stands to the streaming renderer's."""
     return f"{'bit for bit' if view['image']['equals_streaming_renderer'] else 'NOT'} the model's"
@@ -20,6 +26,7 @@ def of_the_model(view: dict) -> str:
 def key_numbers(view: dict) -> str:
     frame, image, dram, energy = view["frame"], view["image"], view["dram"], view["energy"]
     area = view["area_mm2"]
+    more = mm2_with_phy(view)
     joules, squares = energy["bands"]["total_j"], area["bands"]["total"]
     cards = (
         ("frames a second", number(frame["fps"]), f"{number(frame['cycles'])} cycles"),
@@ -43,7 +50,8 @@ def key_numbers(view: dict) -> str:
             "area",
             f"{number(area['total'])} mm²",
             f"{number(squares['low'])} .. {number(squares['high'])} mm², "
-            f"{view['provenance']['technology']}",
+            f"{view['provenance']['technology']}"
+            + (f"; {more} mm² with PHY and controller of the memory" if more else ""),
         ),
         (
             "binds",
@@ -55,8 +63,8 @@ def key_numbers(view: dict) -> str:
         "<dl class=cards>"
         + "".join(
             f"<div><dt>{escaped(name)}</dt><dd><b>{escaped(value)}</b>"
-            f"<small>{escaped(more)}</small></dd></div>"
-            for name, value, more in cards
+            f"<small>{escaped(note)}</small></dd></div>"
+            for name, value, note in cards
         )
         + "</dl>"
     )

@@ -83,7 +83,8 @@ GROUP_COLUMNS = (
 
 def components(view: dict) -> dict[str, tuple[str, ...]]:
     """Name of a row: the keys of the report's energy that it sums."""
-    logic = [name for name in view["area_mm2"] if name not in ("sram", "total", "bands")]
+    area = {name: mm2 for name, mm2 in view["area_mm2"].items() if not isinstance(mm2, dict)}
+    logic = [name for name in area if name not in ("sram", "total")]
     rows = {name: (f"{name}_j",) for name in logic if f"{name}_j" in view["energy"]}
     elsewhere = {key for keys in [*rows.values(), *OTHER.values()] for key in keys}
     # Numbers, not what is split up once more, such as dram_by_region_j.

@@ -7,6 +7,7 @@ namespace sgs {
 namespace {
 
 constexpr double kPj = 1e-12, kMw = 1e-3;
+constexpr const char* kMemoryInterface = "memory_interface";
 
 void add(CostResult& cost, const std::string& component, const Band& amount) {
   cost.total = cost.total + amount;
@@ -35,6 +36,18 @@ CostResult logic_area(const MachineResult& machine, const Technology& technology
   return area;
 }
 
+Band sram_area(const SramUses& uses, const Technology& technology) {
+  Band sram;
+  for (const SramUse& use : uses) sram = sram + technology.sram.mm2(use);
+  return sram;
+}
+
+CostResult machine_area(const MachineResult& machine, const Technology& technology) {
+  CostResult area = logic_area(machine, technology);
+  add(area, "sram", sram_area(machine.sram_uses, technology));
+  return area;
+}
+
 // Area of all that is clocked and leaks as logic does: parts, and memories in registers.
 Band clocked_area(const MachineResult& machine, const Technology& technology) {
   Band area = logic_area(machine, technology).total;
@@ -53,6 +66,11 @@ SramUse write_queues(const FrameResult& frame, const Technology& technology) {
   return queue;
 }
 
+Band memory_interface_area(const FrameResult& frame, const Technology& technology) {
+  return frame.memory.channels * technology.memory_interface.mm2 +
+         technology.sram.mm2(write_queues(frame, technology));
+}
+
 // Each burst of a write is put in and taken out.
 Band write_queue_energy_j(const FrameResult& frame, const SramUse& queue, const SramModel& model) {
   std::uint64_t bytes = 0;
@@ -64,15 +82,27 @@ Band write_queue_energy_j(const FrameResult& frame, const SramUse& queue, const 
 }  // namespace
 
 CostResult area_of(const FrameResult& frame, const Technology& technology) {
-  CostResult area = logic_area(frame.machine, technology);
-  Band sram;
-  for (const SramUse& use : frame.machine.sram_uses) sram = sram + technology.sram.mm2(use);
-  add(area, "sram", sram);
+  CostResult area = machine_area(frame.machine, technology);
   if (technology.memory_interface.counted) {
-    add(area, "memory_interface",
-        frame.memory.channels * technology.memory_interface.mm2 +
-            technology.sram.mm2(write_queues(frame, technology)));
+    add(area, kMemoryInterface, memory_interface_area(frame, technology));
   }
+  return area;
+}
+
+AreaTotals area_totals(const FrameResult& frame, const Technology& technology) {
+  const Band machine = machine_area(frame.machine, technology).total;
+  return {machine, machine + memory_interface_area(frame, technology)};
+}
+
+CostResult area_by_owner(const FrameResult& frame, const Technology& technology) {
+  CostResult area;
+  for (const OwnerResult& owner : frame.machine.owners) {
+    for (const Parts& part : owner.parts) {
+      add(area, owner.owner, part.count * technology.part(part.kind).mm2);
+    }
+    add(area, owner.owner, sram_area(owner.sram_uses, technology));
+  }
+  add(area, kMemoryInterface, memory_interface_area(frame, technology));
   return area;
 }
 
@@ -104,7 +134,7 @@ CostResult energy_of(const FrameResult& frame, const Technology& technology) {
   add(energy, "sram_leakage", kMw * frame.time_s() * sram_leakage);
   if (technology.memory_interface.counted) {
     const SramUse queues = write_queues(frame, technology);
-    add(energy, "memory_interface",
+    add(energy, kMemoryInterface,
         kMw * frame.time_s() *
                 (frame.memory.channels * technology.memory_interface.mw +
                  technology.sram.leakage_mw(queues)) +

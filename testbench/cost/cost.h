@@ -20,6 +20,17 @@ struct CostResult {
 // Throws InputError for a part that the table has no row for.
 CostResult area_of(const FrameResult& frame, const Technology& technology);
 
+// The whole area in mm2, without and with PHY and controller of the memory's channels, whether the
+// table counts these or not.
+struct AreaTotals {
+  Band without_memory_interface, with_memory_interface;
+};
+AreaTotals area_totals(const FrameResult& frame, const Technology& technology);
+
+// Square millimetres of each owner, its on-chip memory included, and of PHY and controller of the
+// memory's channels (`memory_interface`). Throws InputError as above.
+CostResult area_by_owner(const FrameResult& frame, const Technology& technology);
+
 // Joules of the operations, by component; of the accesses, by use of on-chip memory; of the clock
 // (`clock`); of leakage over the frame (`logic_leakage`, `sram_leakage`); and the memory's
 // (`dram`). Throws InputError as above.

@@ -12,6 +12,12 @@
 namespace sgs {
 namespace {
 
+// "hfu3.coarse" -> "hfu": the kind of unit that a path below the machine belongs to.
+std::string owner_of(const std::string& path) {
+  const std::string unit = path.substr(0, path.find('.'));
+  return unit.substr(0, unit.find_last_not_of("0123456789") + 1);
+}
+
 class Collector : public LeftOutCollector {
  public:
   Collector(const Machine& machine, MachineResult& into)
@@ -19,6 +25,12 @@ class Collector : public LeftOutCollector {
 
   void unit(const sc_core::sc_object& unit) override {
     into_.units.push_back({path_below(unit, machine_), {}, {}});
+    const std::string owner =
+        &unit == &machine_ ? kBetweenUnits : owner_of(into_.units.back().name);
+    const auto same = std::find_if(into_.owners.begin(), into_.owners.end(),
+                                   [&](const OwnerResult& o) { return o.owner == owner; });
+    owner_ = static_cast<std::size_t>(same - into_.owners.begin());
+    if (same == into_.owners.end()) into_.owners.push_back({owner, {}, {}});
   }
   void activity(Activity& activity, const char* resource, const char* meaning) override {
     activity.close();
@@ -82,15 +94,20 @@ class Collector : public LeftOutCollector {
     }
   }
   void part(const char* component, const char* kind, double count, double per_cycle) override {
-    Parts& parts = entry(into_.parts, component, kind);
-    parts.count += count;
-    parts.per_cycle += count * per_cycle;
+    for (std::vector<Parts>* all : {&into_.parts, &into_.owners[owner_].parts}) {
+      Parts& parts = entry(*all, component, kind);
+      parts.count += count;
+      parts.per_cycle += count * per_cycle;
+    }
   }
   void operations(const char* component, const char* kind, double count) override {
     entry(into_.operations, component, kind).count += count;
     if (count > 0) into_.units.back().charged = true;
   }
-  void sram(const SramUse& use) override { sgs::add(into_.sram_uses, use); }
+  void sram(const SramUse& use) override {
+    sgs::add(into_.sram_uses, use);
+    sgs::add(into_.owners[owner_].sram_uses, use);
+  }
   void accesses(const char* use, std::uint64_t reads, std::uint64_t writes) override {
     SramAccesses& same = accesses_of(use);
     same.reads += reads;
@@ -176,6 +193,7 @@ class Collector : public LeftOutCollector {
 
   const Machine& machine_;
   MachineResult& into_;
+  std::size_t owner_ = 0;         // index of the publishing unit's owner
   std::set<std::string> movers_;  // units at an end of a FIFO that entries went through
   std::map<std::string, Remedy> for_work_;
   std::map<std::pair<std::string, WaitFor>, Remedy> for_waits_;

@@ -55,6 +55,15 @@ struct Parts {
   double per_cycle = 0;  // operations that all of them can do a cycle
 };
 
+// Parts and on-chip memory of all units of one kind: hfu0.coarse and hfu3.fine are of "hfu".
+struct OwnerResult {
+  std::string owner;
+  std::vector<Parts> parts;
+  SramUses sram_uses;
+};
+// The owner of what the machine states for itself: the queues between its units.
+constexpr const char* kBetweenUnits = "between_units";
+
 // A datapath with all its copies in all units, and what they did.
 struct DatapathResult {
   Datapath datapath;
@@ -89,6 +98,7 @@ struct MachineResult {
   std::vector<Parts> parts;            // lanes included
   std::vector<LeftOut> left_out;       // one entry a saving: counts of several units added up
   SramUses sram_uses;                  // the same use of several units added up
+  std::vector<OwnerResult> owners;     // these parts and uses, by who has them
   std::vector<std::pair<std::string, std::uint64_t>> sram_available;  // (memory, bytes)
   std::vector<SramAccesses> sram_accesses;
   std::vector<DatapathResult> datapaths;

@@ -1,6 +1,8 @@
 // A visitor of the ports.
 #include "testbench/result/memory_path.h"
 
+#include <utility>
+
 namespace sgs {
 namespace {
 
@@ -26,14 +28,17 @@ void add_memory_path(Machine& machine, std::uint32_t channels, MachineResult& re
   constexpr const char* kComponent = "memory_path";
   Paths paths;
   machine.publish(paths);
+  if (paths.wide == 0) return;
+  OwnerResult owner{kComponent, {}, {}};
   if (paths.registers > 0) {
-    result.parts.push_back({kComponent, "register_bit", paths.registers, paths.registers});
+    owner.parts.push_back({kComponent, "register_bit", paths.registers, paths.registers});
     result.operations.push_back({kComponent, "register_bit", paths.registered});
   }
-  if (paths.wide == 0) return;
   // A bit passes one of its channels' multiplexers.
-  result.parts.push_back({kComponent, "crossbar_bit", channels * paths.wide, paths.wide});
+  owner.parts.push_back({kComponent, "crossbar_bit", channels * paths.wide, paths.wide});
   result.operations.push_back({kComponent, "crossbar_bit", paths.passed});
+  result.parts.insert(result.parts.end(), owner.parts.begin(), owner.parts.end());
+  result.owners.push_back(std::move(owner));
 }
 
 }  // namespace sgs

@@ -9,7 +9,8 @@
 namespace sgs {
 
 // Adds parts and operations of component "memory_path": for each port and direction the registers
-// of the path, and for each channel a multiplexer, a bit each; what passed them.
+// of the path, and for each channel a multiplexer, a bit each; what passed them. The parts' owner
+// has the component's name.
 void add_memory_path(Machine& machine, std::uint32_t channels, MachineResult& result);
 
 }  // namespace sgs

@@ -54,6 +54,10 @@ void serialize(Archive& a, SramUse& r) {
   a(r.name, r.memory, r.bytes, r.arithmetic, r.count, r.shape, r.peak);
 }
 template <class Archive>
+void serialize(Archive& a, OwnerResult& r) {
+  a(r.owner, r.parts, r.sram_uses);
+}
+template <class Archive>
 void serialize(Archive& a, SramAccesses& r) {
   a(r.use, r.reads, r.writes, r.seen);
 }
@@ -80,8 +84,8 @@ void serialize(Archive& a, PartValues& r) {
 }
 template <class Archive>
 void serialize(Archive& a, MachineResult& r) {
-  a(r.units, r.operations, r.parts, r.left_out, r.sram_uses, r.sram_available, r.sram_accesses,
-    r.datapaths, r.by_part);
+  a(r.units, r.operations, r.parts, r.left_out, r.sram_uses, r.owners, r.sram_available,
+    r.sram_accesses, r.datapaths, r.by_part);
 }
 template <class Archive>
 void serialize(Archive& a, RegionTraffic& r) {

@@ -1,5 +1,6 @@
 // streaminggs describe: the data sheets of a machine and the keys of its configuration, as tables
-// in Markdown. The documentation's tables and its block diagram are made by it.
+// in Markdown, or the keys of a memspec. The documentation's tables and its block diagram are made
+// by it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -123,14 +124,24 @@ MachineResult sheets_of(RunConfig& config) {
   return from_wire(bytes).machine;
 }
 
+struct DescribeArguments : ConfigSource {
+  std::string memspec;  // name or path; empty: the machine is described
+};
+
 }  // namespace
 
 SubCommand add_describe_command(CommandLine& line, const Kinds& kinds) {
-  auto arguments = std::make_shared<ConfigSource>();
+  auto arguments = std::make_shared<DescribeArguments>();
   arguments->config = kinds.front().name;
   arguments->add_to(line);
   arguments->add_fitting_to(line);
+  line.text("--memspec", arguments->memspec,
+            "print a memspec with a comment for each key instead: a template for another");
   return [arguments, &kinds] {
+    if (!arguments->memspec.empty()) {
+      fmt::print("{}", config_to_commented_json(load_memspec(arguments->memspec)));
+      return 0;
+    }
     RunConfig config = read_run_config(*arguments, kinds);
     const std::unique_ptr<ConfigWriter> keys = make_listing_writer();
     visit(static_cast<ConfigVisitor&>(*keys), config);

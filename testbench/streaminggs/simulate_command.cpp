@@ -17,6 +17,7 @@
 #include "algorithm/files/input_json.h"
 #include "algorithm/files/output_file.h"
 #include "algorithm/render/group_state.h"
+#include "modules/dram/memspec.h"
 #include "testbench/command_line/config_source.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/report/provenance.h"
@@ -138,6 +139,13 @@ void print_what_runs(RunSetting& setting) {
              config.at("storage").at("encoding").get<std::string>());
 }
 
+// Prints where published tables of the memory's numbers disagree.
+void print_notes_of_memory(const std::string& memspec) {
+  for (const std::string& warning : check_memspec(load_memspec(memspec), memspec)) {
+    fmt::print(stderr, "streaminggs: note: {}\n", warning);
+  }
+}
+
 int run(const SimulateArguments& arguments, const Kinds& kinds) {
   RunSetting setting;
   setting.facts.began = std::chrono::steady_clock::now();
@@ -202,8 +210,10 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
     setting.scene = prepare(std::move(scene), config, weighing, CodebookCache(arguments.cache));
   }
   print_what_runs(setting);
-  return path ? run_path(*path, setting, out)
-              : run_views(views, setting, out, arguments.drop_invalid);
+  const int status =
+      path ? run_path(*path, setting, out) : run_views(views, setting, out, arguments.drop_invalid);
+  print_notes_of_memory(config.dram.memspec);
+  return status;
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ class Measures(unittest.TestCase):
             "dram": {"bytes": 70},
             "config": {"hfus": 2, "hfu": self.HFU},
             "sram": {"input_bytes": 1, "input_available_bytes": 5, "shared_available_bytes": 6},
-            "area_mm2": {"total": mm2},
+            "area_mm2": {"total": mm2, "with_memory_interface": {"middle": mm2 + 5}},
             "image": {"psnr_db": psnr_db},
         }
 
@@ -44,6 +44,7 @@ class Measures(unittest.TestCase):
             ("sram_bytes", 11),
             ("frame.cycles", 50),
             ("mm2", 1.6),
+            ("mm2_with_phy", 6.6),
             ("config.hfus", 2),
             ("sram.input_bytes", 1),
             ("mean(cycles)", 25),
@@ -327,7 +328,7 @@ class Reports(unittest.TestCase):
         keys = ("vsu_j", "merge_j", "pixel_state_j", "input_j", "clock_j", "sram_leakage_j")
         middles = {key: 2.0**n for n, key in enumerate((*keys, "dram_j"))}
         view = {
-            "area_mm2": {"vsu": 1, "merge": 1, "sram": 1, "total": 3, "bands": {}},
+            "area_mm2": {"vsu": 1, "merge": 1, "sram": 1, "total": 3, "bands": {}, "by_owner": {}},
             "energy": {**middles, "dram_by_region_j": {"spill": 1.0}, "bands": {}},
         }
         rows = energy.components(view)

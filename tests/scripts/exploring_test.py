@@ -135,6 +135,8 @@ class Exploring(Explorations):
         columns = ["mm2", "cycles", "area_mm2.total", "min(fps) >= 3"]
         self.assertEqual(self.rows("explore.csv")[0][2:6], columns)
         self.assertIn("4 configurations, of which 2 hold min(fps) >= 3; 1 of them", done.stdout)
+        band = "mm2 of the best: 4.00 to 6.00 by its sources; 10.00 (9.00 to 11.00) with PHY and"
+        self.assertIn(band, done.stdout)
         drawn = sorted(path.name for path in self.folder.glob("drawn*"))
         both = [f"drawn {hfus} {view}" for hfus in (4, 8) for view in (0, 1)]
         # A view that none was drawn on comes first.

@@ -112,6 +112,8 @@ class InFolder(unittest.TestCase):
                 sys.exit()
             if "describe" in sys.argv:
                 sys.exit()
+            def band(middle):
+                return {{"low": middle - 1, "middle": middle, "high": middle + 1}}
             def finish():
                 hfus = int(SET.get("hfus", 1))
                 number = int(sys.argv[sys.argv.index("--view") + 1])
@@ -120,7 +122,12 @@ class InFolder(unittest.TestCase):
                 config["sram"] = {{"input_bytes": 100 * hfus + number, "codebook_bytes": 0}}
                 view = {{"view": number, "frame": frame, "binding": {{"unit": "dram"}},
                         "config": config,
-                        "area_mm2": {{"total": 1 + hfus}}, "provenance": {{}}}}
+                        "area_mm2": {{
+                            "total": 1 + hfus,
+                            "bands": {{"total": band(1 + hfus)}},
+                            "with_memory_interface": band(6 + hfus),
+                        }},
+                        "provenance": {{}}}}
                 out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
                 (out / "report.json").write_text(json.dumps({{"views": [view]}}))
             def swept(point):

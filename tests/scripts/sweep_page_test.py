@@ -77,6 +77,16 @@ class Read(InFolder):
         self.assertEqual(shown, {"all": 2, "s, view 0": 2, "s, view 1": 3})
         self.assertIn("<td class=n>401</td>", panels["all"])  # cycles of hfus=2
 
+    def test_area_with_the_memory_s_interface_where_the_result_tells_it(self):
+        told = json.loads(line(100, 5.0, 1.0))
+        told["report"]["area_mm2"]["with_memory_interface"] = {"middle": 11.25}
+        path = self.folder / "sweep.jsonl"
+        for text, expected in ((json.dumps(told) + "\n", "11.25"), (line(100, 5.0, 1.0), "")):
+            with self.subTest(expected):
+                path.write_text(text)
+                machine = sweep.Machine(tuple(read_sweep(path)))
+                self.assertEqual(sweep.cell(machine.value("mm2 with PHY")), expected)
+
     def test_what_was_not_done_is_named_as_text(self):
         status, page = self.page(line(9, 1, 1) + line(0, 0, 0, "refused", set={"hfus": 0}))
         self.assertEqual(status, 0)

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
@@ -139,6 +140,23 @@ TEST_CASE("configuration: what is printed of fitted memories is what they decide
     CHECK(keys[Json::json_pointer(key)] == run[Json::json_pointer(key)]);
   }
   CHECK(print(scratch.write("mine.json", printed)) == printed);
+}
+
+TEST_CASE("configuration: simulate notes what tb_dram notes of the memory, and charges its I/O") {
+  const ScratchFolder scratch;
+  Json memspec = Json::parse(run_streaminggs({"describe", "--memspec", "lpddr3_1600_4gb"}).out,
+                             nullptr, true, true);
+  memspec["io_pj_per_bit"] = 7;
+  memspec["timing_cycles"]["refi_bank"] = 389;
+  const std::string file = scratch.write("mine.json", memspec.dump());
+  const Outcome done = run_streaminggs(with_settings(
+      {"simulate", "builtin:object?n=50", "--size", "32x18", "--out", scratch.path("")},
+      {"dram.memspec=" + file}));
+  REQUIRE(done.status == 0);
+  CHECK(done.err.find("note: lpddr3_1600_4gb: refi is 3120 but refi_bank x banks is 3112\n") !=
+        std::string::npos);
+  const Json report = Json::parse(std::ifstream(scratch.path("report.json")));
+  CHECK(report["config"]["dram"]["io_pj_per_bit"] == 7);
 }
 
 TEST_CASE("configuration: a machine's name alone is the preset of its name, or as little away") {

@@ -31,6 +31,20 @@ Json use_of(const Json& view, const std::string& name) {
   return {};
 }
 
+// A unit's area is that of its parts and of on-chip memory; all owners make up the die.
+void check_owners(const Json& area) {
+  double sum = 0;
+  for (const auto& [owner, mm2] : area["by_owner"].items()) sum += mm2.get<double>();
+  CHECK(area["with_memory_interface"]["middle"] == Approx(sum));
+  const double interface = area["by_owner"]["memory_interface"].get<double>();
+  CHECK(area["without_memory_interface"]["middle"] == Approx(sum - interface));
+  const auto kind = [&](const char* name) { return area[name].get<double>(); };
+  CHECK(area["by_owner"]["memory_path"] == Approx(kind("memory_path")));
+  CHECK(area["by_owner"]["vsu"] > kind("vsu"));
+  CHECK(area["by_owner"]["sorting"] > kind("sorting"));
+  CHECK(area["by_owner"]["hfu"] > kind("coarse") + kind("fine"));
+}
+
 void check_joules(const Json& view) {
   const Technology technology = load_technology(SGS_TECHNOLOGY);
   const auto pj = [&](const char* kind) { return technology.part(kind).pj.middle * 1e-12; };
@@ -94,6 +108,7 @@ void check_joules(const Json& view) {
     mm2 += use["mm2"].get<double>();
   }
   CHECK(view["area_mm2"]["sram"].get<double>() == Approx(mm2));
+  check_owners(view["area_mm2"]);
   CHECK(use_of(view, "input")["writes"] == total(view, "first_halves"));
   CHECK(use_of(view, "pixel state")["reads"].get<std::uint64_t>() >= total(view, "subtile_blends"));
   double by_region = 0;

@@ -6,12 +6,23 @@
 #include <sstream>
 #include <string>
 
+#include "testbench/cost/technology.h"
 #include "tests/system/streaminggs_run.h"
 
 namespace sgs::test {
 namespace {
 
 using nlohmann::json;
+
+// PHY and controller of each channel more are on the die, beside what the machine has more.
+void check_channels_cost(const json& base, const json& row) {
+  const auto more = [&](const char* key) {
+    return row[key].get<double>() - base[key].get<double>();
+  };
+  const double mm2 = load_technology(SGS_TECHNOLOGY).memory_interface.mm2.middle;
+  const double channels = row["to"].get<double>() - row["from"].get<double>();
+  CHECK(more("area_with_memory_interface_mm2") > more("area_mm2") + channels * mm2);
+}
 
 // The answer for a single view.
 json what_if(const Arguments& drawn) {
@@ -45,8 +56,11 @@ void check_rows(const std::string& preset, const Arguments& drawn) {
     const Simulation alone(
         with_settings(joined(scene, {"--fit-memories"}), {key + "=" + to.str()}));
     CHECK(alone.views()[0]["frame"]["cycles"] == row["cycles"]);
-    CHECK(alone.views()[0]["area_mm2"]["total"].get<double>() ==
-          Approx(row["area_mm2"].get<double>()));
+    const json& area = alone.views()[0]["area_mm2"];
+    CHECK(area["total"].get<double>() == Approx(row["area_mm2"].get<double>()));
+    CHECK(area["with_memory_interface"]["middle"].get<double>() ==
+          Approx(row["area_with_memory_interface_mm2"].get<double>()));
+    if (key == "dram.channels") check_channels_cost(view["base"], row);
     ++rows;
   }
   CHECK(rows > 5);

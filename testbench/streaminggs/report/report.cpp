@@ -193,6 +193,16 @@ Json energy_section(const ViewResult& view) {
   return out;
 }
 
+Json area_section(const ViewResult& view) {
+  Json out = costs_of(view.area_mm2, "");
+  out["without_memory_interface"] = band_of(view.area_totals_mm2.without_memory_interface);
+  out["with_memory_interface"] = band_of(view.area_totals_mm2.with_memory_interface);
+  for (const auto& [owner, mm2] : view.area_by_owner_mm2.by_component) {
+    out["by_owner"][owner] = mm2.middle;
+  }
+  return out;
+}
+
 Json sram_of(const MachineResult& machine, const SramModel& model) {
   Json out;
   for (const auto& [memory, available] : machine.sram_available) {
@@ -290,7 +300,7 @@ Json view_report(const ViewResult& view, const PreparedScene& scene) {
   add(report["binding"], view.binding.remedy);
   report["dram"] = dram_of(run.memory);
   report["energy"] = energy_section(view);
-  report["area_mm2"] = costs_of(view.area_mm2, "");
+  report["area_mm2"] = area_section(view);
   report["sram"] = sram_of(run.machine, view.sram_model);
   report["datapath"] = datapaths_of(run.machine.datapaths);
   report["ledger"] = ledger_section(run);

@@ -154,6 +154,12 @@ ReportDiff diff_runs(const ReportedRun& a, const ReportedRun& b) {
   for (std::size_t q = 0; q < kQuantities; ++q) {
     diff.quantities.push_back(compare(diff, static_cast<Quantity>(q)));
   }
+  // Reports of earlier programs do not have it.
+  const auto not_told = [](const QuantityChange& q) {
+    return q.quantity == Quantity::kDieArea && (q.a == 0 || q.b == 0);
+  };
+  diff.quantities.erase(std::remove_if(diff.quantities.begin(), diff.quantities.end(), not_told),
+                        diff.quantities.end());
   std::stable_sort(diff.quantities.begin(), diff.quantities.end(),
                    [](const QuantityChange& x, const QuantityChange& y) {
                      return std::abs(x.ratio()) > std::abs(y.ratio());

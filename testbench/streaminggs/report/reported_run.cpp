@@ -91,6 +91,15 @@ void add_costs(const JsonPlace& section, const std::string& suffix, ReportedQuan
   });
 }
 
+// Reports of earlier programs have no owners: the whole stays 0.
+void add_owners(const JsonPlace& area, ReportedQuantity& to) {
+  if (!area.has("by_owner")) return;
+  to.whole = area.at("with_memory_interface").at("middle").number();
+  area.at("by_owner").each([&](const std::string& owner, const JsonPlace& mm2) {
+    add(to, owner, mm2.number());
+  });
+}
+
 void add_facts(const JsonPlace& report, ReportedView& view) {
   const auto fact = [&](const char* kind, std::string what) {
     view.facts.emplace_back(kind, std::move(what));
@@ -133,6 +142,7 @@ ReportedView read_view(const JsonPlace& report) {
   add_bytes(report.at("dram"), view.of(Quantity::kBytes));
   add_costs(report.at("energy"), "_j", view.of(Quantity::kJoules));
   add_costs(report.at("area_mm2"), "", view.of(Quantity::kArea));
+  add_owners(report.at("area_mm2"), view.of(Quantity::kDieArea));
   return view;
 }
 

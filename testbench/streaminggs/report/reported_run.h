@@ -25,8 +25,9 @@ struct ReportedQuantity {
 };
 
 // The whole of kBusy is the frame; that of kWaits is the mean of the activities, without idle.
-enum class Quantity { kBusy, kWaits, kBytes, kJoules, kArea };
-constexpr std::size_t kQuantities = 5;
+// kArea is by kind of part; kDieArea by owner, with PHY and controller of the memory.
+enum class Quantity { kBusy, kWaits, kBytes, kJoules, kArea, kDieArea };
+constexpr std::size_t kQuantities = 6;
 
 struct ReportedView {
   int view = 0;

@@ -15,6 +15,20 @@ std::string percent(double share) {
   return std::isnan(share) ? "none" : fmt::format("{:.1f} %", 100 * share);
 }
 
+// "6.50 (4.88 .. 9.50)"
+std::string in_words(const Band& mm2) {
+  return fmt::format("{:.2f} ({:.2f} .. {:.2f})", mm2.middle, mm2.low, mm2.high);
+}
+
+// "vsu 0.37, merge 0.08"
+std::string in_words(const CostResult& area) {
+  std::string parts;
+  for (const auto& [component, mm2] : area.by_component) {
+    parts += fmt::format("{}{} {:.2f}", parts.empty() ? "" : ", ", component, mm2.middle);
+  }
+  return parts;
+}
+
 // Prints the parts of the squared error that the machine and the storage cause.
 void print_order_loss(const OrderLoss& loss, const GoldenFrame& golden) {
   fmt::print("  squared error: ");
@@ -86,13 +100,11 @@ void print_scene(const PreparedScene& scene, const RunConfig& config, bool dropp
 
 void print_machine(const ViewResult& v, const std::vector<AutoChoice>& chosen,
                    const std::string& technology) {
-  std::string parts;
-  for (const auto& [component, mm2] : v.area_mm2.by_component) {
-    parts += fmt::format("{}{} {:.2f}", parts.empty() ? "" : ", ", component, mm2.middle);
-  }
-  const Band& area = v.area_mm2.total;
-  fmt::print("\narea {:.2f} ({:.2f} .. {:.2f}) mm2 at {}: {}\n", area.middle, area.low, area.high,
-             technology, parts);
+  fmt::print("\narea {} mm2 at {}; {} with PHY and controller of the memory\n",
+             in_words(v.area_totals_mm2.without_memory_interface), technology,
+             in_words(v.area_totals_mm2.with_memory_interface));
+  fmt::print("  mm2 by kind: {}\n", in_words(v.area_mm2));
+  fmt::print("  mm2 by owner, with its on-chip memory: {}\n", in_words(v.area_by_owner_mm2));
   for (const auto& [d, items, busiest] : v.run.machine.datapaths) {
     const std::string published =
         d.published_macs > 0 ? fmt::format(" {} published,", d.published_macs) : "";

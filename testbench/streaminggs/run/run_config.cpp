@@ -103,7 +103,9 @@ void fit_memories(RunConfig& config) {
 void resolve_machine(RunConfig& config) {
   naming_origins(config, [&] {
     config.dram.validate();
-    const AddressMapping mapping(config.dram, load_memspec(config.dram.memspec));
+    const Memspec device = load_memspec(config.dram.memspec);
+    const AddressMapping mapping(config.dram, device);
+    config.dram.io_pj_per_bit = config.dram.io_pj_per_bit_of(device);
     config.add_choices(scheme_of(config.storage.order).choose(config.storage, mapping.run_bytes()));
     config.design->resolve(config.storage, config.chosen);
   });

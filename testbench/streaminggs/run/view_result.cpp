@@ -123,6 +123,8 @@ ViewResult view_result(const PreparedScene& scene, const ViewJob& job, Reference
   if (view.golden.contributing == 0) view.binding = without_advice(view.binding);
   view.energy_j = energy_of(view.run, technology);
   view.area_mm2 = area_of(view.run, technology);
+  view.area_by_owner_mm2 = area_by_owner(view.run, technology);
+  view.area_totals_mm2 = area_totals(view.run, technology);
   view.sram_model = technology.sram;
   const SceneLayout& layout = scene.stored.image.layout;
   view.once_bytes = view.golden.contributing * layout.record_bytes() + job.frame.frame_buffer.bytes;

@@ -63,7 +63,8 @@ struct ViewResult : ReferencePictures, JudgedFrame {
   FrameResult run;
   std::vector<LeftOut> left_out;
   Binding binding;
-  CostResult energy_j, area_mm2;
+  CostResult energy_j, area_mm2, area_by_owner_mm2;
+  AreaTotals area_totals_mm2;
   SramModel sram_model;          // the model they were made with
   std::uint64_t image_hash = 0;  // hash of the bytes loaded into the memory
   std::uint64_t once_bytes = 0;  // each contributing Gaussian read once, each pixel written

@@ -34,6 +34,7 @@ constexpr Column kOfReport[] = {
     {"energy.total_j", "energy.total_j"},
     {"energy.mean_power_w", "energy.mean_power_w"},
     {"area_mm2.total", "area_mm2.total"},
+    {"area_mm2.with_memory_interface.middle", "area_mm2.with_memory_interface.middle"},
     {"sram.input_needed_bytes", "sram.input_bytes"},
     {"sram.input_available_bytes", "sram.input_available_bytes"},
     {"sram.codebook_needed_bytes", "sram.codebook_bytes"},

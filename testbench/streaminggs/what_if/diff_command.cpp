@@ -25,7 +25,8 @@ constexpr QuantityWords kWords[kQuantities] = {
     {"waiting", "", "cycles that an activity waits, of the frame's", 1},
     {"bytes", "B", "bytes of the memory", 1},
     {"energy", "mJ", "energy", 1e3},
-    {"area", "mm2", "area", 1}};
+    {"area", "mm2", "area by kind of part", 1},
+    {"area with PHY", "mm2", "area by owner, with PHY and controller of the memory", 1}};
 
 const QuantityWords& words_of(Quantity quantity) {
   return kWords[static_cast<std::size_t>(quantity)];
@@ -33,7 +34,7 @@ const QuantityWords& words_of(Quantity quantity) {
 
 std::string in_words(double value, Quantity quantity) {
   const double scaled = value * words_of(quantity).scale;
-  if (quantity == Quantity::kJoules || quantity == Quantity::kArea) return rounded(scaled);
+  if (*words_of(quantity).unit == 'm') return rounded(scaled);
   return grouped(static_cast<std::uint64_t>(std::llround(scaled)));
 }
 
@@ -80,11 +81,11 @@ void print_views(const ReportDiff& diff) {
 }
 
 void print_wholes(const ReportDiff& diff) {
-  fmt::print("\n{:<15} {:>15} {:>15} {:>10}\n", diff.views.size() > 1 ? "mean of a view" : "", "A",
+  fmt::print("\n{:<18} {:>15} {:>15} {:>10}\n", diff.views.size() > 1 ? "mean of a view" : "", "A",
              "B", "change");
   for (const QuantityChange& q : diff.quantities) {
     const QuantityWords& words = words_of(q.quantity);
-    fmt::print("{:<15} {:>15} {:>15} {:>10}{}\n", fmt::format("{} {}", words.name, words.unit),
+    fmt::print("{:<18} {:>15} {:>15} {:>10}{}\n", fmt::format("{} {}", words.name, words.unit),
                in_words(q.a, q.quantity), in_words(q.b, q.quantity), change(q.a, q.b),
                q.quantity == Quantity::kBusy && diff.views.size() == 1 ? noise_of(q.a, q.b) : "");
   }

@@ -67,7 +67,7 @@ void rank(const Outcome& base, std::vector<Doubling>& doublings) {
     if (!a.refused.empty()) return false;
     const double gain_a = time_saved(base, a.outcome), gain_b = time_saved(base, b.outcome);
     if (gain_a != gain_b) return gain_a > gain_b;
-    return a.outcome.mm2 < b.outcome.mm2;
+    return a.outcome.mm2_with_memory_interface < b.outcome.mm2_with_memory_interface;
   });
 }
 

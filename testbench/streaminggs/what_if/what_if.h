@@ -16,6 +16,7 @@ namespace sgs {
 struct Outcome {
   std::uint64_t cycles = 0, bus_bytes = 0;
   double joules = 0, mm2 = 0;
+  double mm2_with_memory_interface = 0;  // with PHY and controller of the memory's channels
   Binding binding;
 };
 

@@ -75,8 +75,12 @@ FrameResult run(const Base& base, const RunConfig& config, const Camera& camera,
 }
 
 Outcome outcome_of(const FrameResult& frame, const Technology& technology) {
-  return {frame.cycles, frame.memory.bus_bytes, energy_of(frame, technology).total.middle,
-          area_of(frame, technology).total.middle, find_binding(frame)};
+  return {frame.cycles,
+          frame.memory.bus_bytes,
+          energy_of(frame, technology).total.middle,
+          area_of(frame, technology).total.middle,
+          area_totals(frame, technology).with_memory_interface.middle,
+          find_binding(frame)};
 }
 
 // The number at "key.path" of a document.
@@ -86,35 +90,41 @@ double value_at(const Json& document, std::string key) {
 }
 
 void print(const Outcome& base, const std::vector<Doubling>& doublings) {
-  fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>9} {:>10} {:>10}   then holds\n", "doubled",
-             "from", "to", "cycles", "time", "energy", "mm2", "time/mm2", "energy/mm2");
-  fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>9.3f} {:>10} {:>10}   {}\n", "nothing", "",
-             "", base.cycles, "", "", base.mm2, "", "", base.binding.holds);
+  fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>9} {:>9} {:>10} {:>10}   then holds\n",
+             "doubled", "from", "to", "cycles", "time", "energy", "mm2", "with PHY", "time/mm2",
+             "energy/mm2");
+  fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>9.3f} {:>9.3f} {:>10} {:>10}   {}\n",
+             "nothing", "", "", base.cycles, "", "", base.mm2, base.mm2_with_memory_interface, "",
+             "", base.binding.holds);
   for (const Doubling& d : doublings) {
     if (!d.refused.empty()) continue;
     const double time = time_saved(base, d.outcome);
     const double energy = energy_saved(base, d.outcome);
-    const double mm2 = d.outcome.mm2 - base.mm2;
     const bool noise = below_noise(time);
-    // Most of the memory stands beside the chip, where its area is not counted.
-    const bool counted = d.key.rfind("dram.", 0) != 0;
+    const double with_phy = d.outcome.mm2_with_memory_interface - base.mm2_with_memory_interface;
     const auto per_mm2 = [&](double gain) {
-      return counted && mm2 > 0 ? change_in_words(gain / mm2) : std::string("-");
+      return with_phy > 0 ? change_in_words(gain / with_phy) : std::string("-");
     };
-    fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>+9.3f} {:>10} {:>10}   {}{}\n", d.key,
-               d.from, d.to, d.outcome.cycles, change_in_words(time), change_in_words(energy), mm2,
+    fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>+9.3f} {:>+9.3f} {:>10} {:>10}   {}{}\n",
+               d.key, d.from, d.to, d.outcome.cycles, change_in_words(time),
+               change_in_words(energy), d.outcome.mm2 - base.mm2, with_phy,
                noise ? "-" : per_mm2(time), per_mm2(energy), d.outcome.binding.holds,
                noise ? fmt::format("; time {}", kBelowNoise) : "");
   }
+  fmt::print("with PHY: mm2 with PHY and controller of the memory's channels\n");
   for (const Doubling& d : doublings) {
     if (!d.refused.empty()) fmt::print("{}={}: cannot be: {}\n", d.key, d.to, d.refused);
   }
 }
 
 Json to_json(const Outcome& outcome) {
-  return {{"cycles", outcome.cycles},       {"bus_bytes", outcome.bus_bytes},
-          {"energy_j", outcome.joules},     {"area_mm2", outcome.mm2},
-          {"holds", outcome.binding.holds}, {"holds_key", outcome.binding.remedy.key}};
+  return {{"cycles", outcome.cycles},
+          {"bus_bytes", outcome.bus_bytes},
+          {"energy_j", outcome.joules},
+          {"area_mm2", outcome.mm2},
+          {"area_with_memory_interface_mm2", outcome.mm2_with_memory_interface},
+          {"holds", outcome.binding.holds},
+          {"holds_key", outcome.binding.remedy.key}};
 }
 
 Json to_json(int view, const Outcome& base, const std::vector<Doubling>& doublings,

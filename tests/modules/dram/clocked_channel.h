@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "modules/dram/channel_request.h"
@@ -51,6 +52,11 @@ class ClockedChannel {
   // A cycle: at most one command.
   void step() {
     refresh_.begin_cycle(now_);
+    std::set<std::uint32_t> waiting;
+    for (const Queue* requests : {&reads_, &writes_}) {
+      for (const Entry& entry : *requests) waiting.insert(entry.request.bank);
+    }
+    refresh_.look_for_bank(waiting);
     if (!refresh_.wanted(!empty()) || !send_refresh()) send_request();
     ++now_;
   }

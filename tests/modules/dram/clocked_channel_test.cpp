@@ -56,7 +56,8 @@ std::vector<ChannelRequest> requests_of(const DramWorkload& load, const Memspec&
 }
 
 void compare(const DramWorkload& load) {
-  const Memspec memspec = load_memspec(DramConfig{}.memspec);
+  Memspec memspec = load_memspec(DramConfig{}.memspec);
+  if (load.hardware.refresh.any_bank) memspec.refresh_order = RefreshOrder::kAny;
   std::size_t commands = 0;
   std::uint64_t cycles = 0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -138,6 +139,8 @@ TEST_CASE("clocked reference: DRAM commands with refresh") {
   tiny.read_entries = tiny.write_entries = 2;
   tiny.high_watermark = 2;
   tiny.low_watermark = 0;
+  ChannelHardware any = bank, any_late = refreshed(RefreshMode::kPerBank, 3), any_tiny = tiny;
+  any.refresh.any_bank = any_late.refresh.any_bank = any_tiny.refresh.any_bank = true;
   for (const DramWorkload& load : {
            DramWorkload{"all banks, light", 8, 64, 4, 30, 200, all},
            DramWorkload{"all banks, heavy: random rows", 8, 1000, 2, 30, 1, all},
@@ -155,6 +158,12 @@ TEST_CASE("clocked reference: DRAM commands with refresh") {
            DramWorkload{"a bank, 8 late, medium", 8, 64, 4, 30, 40, bank_late},
            DramWorkload{"a bank, 8 late, heavy", 8, 1000, 2, 30, 1, bank_late},
            DramWorkload{"a bank, 8 late, tiny queues", 8, 64, 4, 50, 1, tiny},
+           DramWorkload{"any bank, light", 8, 64, 4, 30, 200, any},
+           DramWorkload{"any bank, medium", 8, 64, 4, 30, 40, any},
+           DramWorkload{"any bank, heavy: random rows", 8, 1000, 2, 30, 1, any},
+           DramWorkload{"any bank, few banks asked for", 3, 4, 8, 30, 1, any},
+           DramWorkload{"any bank, 3 late, medium", 8, 64, 4, 30, 40, any_late},
+           DramWorkload{"any bank, tiny queues", 8, 64, 4, 50, 1, any_tiny},
        }) {
     compare(load);
   }

@@ -1,9 +1,14 @@
 // What a rank owes in refreshes, cycle by cycle: a counter that goes up every tREFI and down with
 // each refresh. Without requests one goes as soon as it is owed. Beside requests as many may be
 // owed as are allowed; one more, and refreshes go first until none is owed.
+//
+// Where the controller names the bank, it is looked for every cycle: of those that have not had
+// their turn in this round the next one, round the banks, that no request waits for. If requests
+// wait for all of them, eight refreshes may be owed; one more, and the next bank's goes first.
 #pragma once
 
 #include <cstdint>
+#include <set>
 
 #include "modules/dram/dram_config.h"
 #include "modules/dram/memspec.h"
@@ -13,6 +18,7 @@ namespace sgs::test {
 struct RefreshHardware {
   RefreshMode mode = RefreshMode::kOff;
   std::uint32_t most_postponed = 0;
+  bool any_bank = false;  // the controller names the bank
 };
 
 class ClockedRefresh {
@@ -26,11 +32,16 @@ class ClockedRefresh {
 
   bool all_banks() const { return hw_.mode == RefreshMode::kAllBank; }
   std::uint32_t bank() const { return bank_; }  // whose turn it is
-  bool wanted(bool requests_wait) const { return requests_wait ? first_ : owed_ > 0; }
+  bool wanted(bool requests_wait) const {
+    if (!requests_wait) return owed_ > 0;
+    return hw_.any_bank ? owed_ > allowed() : first_;
+  }
   // Nothing is begun for requests of the bank; or will not be, so many cycles from now.
-  bool holds(std::uint32_t bank) const { return first_ && (all_banks() || bank == bank_); }
+  bool holds(std::uint32_t bank) const {
+    return (hw_.any_bank ? owed_ > allowed() : first_) && (all_banks() || bank == bank_);
+  }
   bool will_hold(std::uint32_t bank, std::uint32_t cycles) const {
-    const bool last_one = owed_ == hw_.most_postponed && left_ <= cycles;
+    const bool last_one = owed_ == allowed() && left_ <= cycles;
     return hw_.mode != RefreshMode::kOff && last_one && (all_banks() || bank == bank_);
   }
 
@@ -40,17 +51,36 @@ class ClockedRefresh {
     ++owed_;
     first_ = first_ || owed_ > hw_.most_postponed;
   }
+  // Banks that requests wait for, at the beginning of the cycle.
+  void look_for_bank(const std::set<std::uint32_t>& waiting) {
+    if (!hw_.any_bank) return;
+    for (const bool idle : {true, false}) {
+      for (std::uint32_t i = 0; i < banks_; ++i) {
+        const std::uint32_t bank = (after_last_ + i) % banks_;
+        in_use_ = waiting.count(bank) > 0;
+        if (had_turn_.count(bank) > 0 || (idle && in_use_)) continue;
+        bank_ = bank;
+        return;
+      }
+    }
+  }
   void refreshed() {
     if (--owed_ == 0) first_ = false;
-    bank_ = (bank_ + 1) % banks_;
+    had_turn_.insert(bank_);
+    if (had_turn_.size() == banks_) had_turn_.clear();
+    bank_ = after_last_ = (bank_ + 1) % banks_;
   }
 
  private:
+  std::uint32_t allowed() const { return in_use_ ? 8 : hw_.most_postponed; }
+
   const RefreshHardware hw_;
   const std::uint32_t interval_, banks_;
   std::uint32_t left_;  // cycles until another is owed
-  std::uint32_t owed_ = 0, bank_ = 0;
+  std::uint32_t owed_ = 0, bank_ = 0, after_last_ = 0;
   bool first_ = false;  // refreshes go before requests
+  std::set<std::uint32_t> had_turn_;
+  bool in_use_ = false;  // requests wait for bank_, which the controller named
 };
 
 }  // namespace sgs::test

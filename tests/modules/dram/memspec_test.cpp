@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <functional>
+#include <map>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "algorithm/files/input_error.h"
@@ -94,14 +97,56 @@ TEST_CASE("memspecs: the impossible is refused with the key's name") {
           m.timing_cycles.ras = 10;
         }).find("file: timing_cycles.ras: got 10, expected at least rcd 15") == 0);
   CHECK(memspec_refusal([](Memspec& m) {
-          m.sources.erase("faw");
-        }).find("file: sources.faw: got nothing") == 0);
+          m.io_pj_per_bit = Memspec().io_pj_per_bit;
+        }).find("file: io_pj_per_bit: got nothing") == 0);
   CHECK(memspec_refusal([](Memspec& m) {
           m.sources["fawn"] = "x";
         }).find("file: sources.fawn: unknown key") == 0);
   CHECK(memspec_refusal([](Memspec& m) {
           m.default_currents = "none";
         }).find("file: default_currents: got 'none'") == 0);
+}
+
+TEST_CASE("memspecs: one default source is enough, and a number may have its own") {
+  const auto with = [](const std::map<std::string, std::string>& sources) {
+    return memspec_refusal([&](Memspec& m) { m.sources = sources; });
+  };
+  CHECK(with({{"default", "the data sheet"}}) == "accepted");
+  CHECK(with({{"default", "the data sheet"}, {"faw", "measured"}}) == "accepted");
+  CHECK(with({{"faw", "measured"}}) ==
+        "file: sources.read_latency: got nothing, expected where 'read_latency' comes from, or "
+        "sources.default");
+  CHECK(with({{"default", ""}}).find("file: sources.read_latency: got nothing") == 0);
+}
+
+TEST_CASE("memspecs: the I/O energy is the device's unless the configuration has its own") {
+  Memspec m = load_memspec("lpddr4_3200_8gb");
+  m.io_pj_per_bit = 5;
+  DramConfig config;
+  CHECK(config.io_pj_per_bit_of(m) == 5);
+  config.io_pj_per_bit = 0;
+  CHECK(config.io_pj_per_bit_of(m) == 0);
+  for (const std::string& name : shipped_memspecs()) CHECK(load_memspec(name).io_pj_per_bit == 3);
+}
+
+TEST_CASE("memspecs: the commented template reads back as the memspec, each number explained") {
+  const Memspec m = load_memspec("lpddr3_1600_4gb");
+  const std::string text = config_to_commented_json(m);
+  ConfigDocument document;
+  document.add_text(text, "template");
+  Memspec back;
+  document.read_into(back);
+  CHECK(config_to_json(back) == config_to_json(m));
+  CHECK(text.find("\"faw\": 40,  // 1..1000000: tFAW: window of at most four activates") !=
+        std::string::npos);
+  std::istringstream lines(text.substr(0, text.find("\"sources\"")));
+  for (std::string line; std::getline(lines, line);) {
+    INFO(line);
+    const bool number = line.find_first_of("0123456789", line.find("\": ")) != std::string::npos;
+    if (line.find("\": ") != std::string::npos && number) {
+      CHECK(line.find("  // ") != std::string::npos);
+    }
+  }
 }
 
 TEST_CASE("memspecs: refresh that leaves requests no room is refused, a cycle less is not") {

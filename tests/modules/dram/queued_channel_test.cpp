@@ -269,6 +269,40 @@ TEST_CASE("refresh: per bank goes round the banks and leaves the others working"
   CHECK(b.sink.text() == "REFB@3510 ACT@3518 RD@3533");
 }
 
+TEST_CASE("refresh: one that may go to any bank avoids those in use, eight times at most") {
+  DramConfig config = quiet_config();
+  config.refresh = RefreshMode::kPerBank;
+  Memspec memspec = load_memspec(config.memspec);
+  memspec.refresh_order = RefreshOrder::kAny;
+  test::RecordingSink sink;
+  QueuedChannel channel(config, memspec, 0, sink);
+  // Requests for banks 0 to 2 without a gap, until nine refreshes are owed after the first round.
+  std::uint64_t cycle = 1;
+  for (std::uint32_t i = 0; cycle < 390 * 30; ++i) {
+    channel.advance(cycle);
+    while (channel.full(Direction::kRead)) channel.advance(cycle = channel.next_decision() + 1);
+    ChannelRequest request;
+    request.bank = i % 3;
+    request.row = i;
+    request.bursts = 1;
+    channel.push(request, cycle);
+  }
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> refreshes;
+  for (const CommandRecord& r : sink.records) {
+    if (r.command == Command::kRefreshBank) refreshes.emplace_back(r.cycle, r.bank);
+  }
+  REQUIRE(refreshes.size() > 8);
+  // Idle banks at once, one each tREFIpb; banks in use when more than eight are owed.
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    CHECK(refreshes[i].second == i + 3);
+    CHECK(refreshes[i].first / 390 == i + 1);
+  }
+  for (std::uint32_t i = 5; i < 8; ++i) {
+    CHECK(refreshes[i].second == i - 5);
+    CHECK(refreshes[i].first / 390 == i + 1 + 8);
+  }
+}
+
 TEST_CASE("power states: an idle rank powers down, refreshes, and wakes for a request") {
   DramConfig config = quiet_config();
   config.refresh = RefreshMode::kAllBank;

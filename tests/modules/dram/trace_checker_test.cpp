@@ -2,6 +2,7 @@
 #include "modules/dram/trace_checker.h"
 
 #include <catch2/catch.hpp>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -180,6 +181,39 @@ TEST_CASE("trace checker: states that forbid a command") {
       REQUIRE(found.has_value() == last);
       if (last) CHECK(found->constraint == one.constraint);
     }
+  }
+}
+
+TEST_CASE(
+    "trace checker: per-bank refresh gives each bank its turn, in the device's order or any") {
+  constexpr std::uint64_t kApart = 390;
+  const auto constraint_of = [&](RefreshOrder order, const std::vector<std::uint8_t>& banks) {
+    Memspec memspec = load_memspec("lpddr3_1600_4gb");
+    memspec.refresh_order = order;
+    CommandTraceHeader header;
+    header.refresh = RefreshMode::kPerBank;
+    TraceChecker checker(memspec, header);
+    std::optional<TraceViolation> found;
+    for (std::size_t i = 0; i < banks.size(); ++i) {
+      REQUIRE_FALSE(found);
+      found = checker.check(record({i * kApart, C::kRefreshBank, 0, banks[i]}));
+    }
+    return found ? found->constraint : "";
+  };
+  using O = RefreshOrder;
+  CHECK(constraint_of(O::kInTurn, {0, 1, 2, 3, 4, 5, 6, 7, 0, 1}).empty());
+  CHECK(constraint_of(O::kInTurn, {0, 2}) == "refresh out of turn");
+  CHECK(constraint_of(O::kAny, {5, 0, 7, 1, 2, 3, 4, 6, 6, 5}).empty());
+  CHECK(constraint_of(O::kAny, {5, 0, 5}) == "refreshed again before others");
+}
+
+TEST_CASE("trace checker: as many per-bank refreshes may be postponed as all-bank ones cover") {
+  // Nine all-bank intervals of eight banks, and the one that passes.
+  for (const std::uint64_t intervals : {9u * 8u, 9u * 8u + 1u}) {
+    TraceChecker checker = make_checker(RefreshMode::kPerBank);
+    const auto found = checker.check(record({intervals * 390, C::kActivate}));
+    CHECK(found.has_value() == (intervals > 72));
+    if (found) CHECK(found->constraint == "tREFI: more than 8 postponed");
   }
 }
 

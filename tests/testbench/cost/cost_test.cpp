@@ -120,6 +120,38 @@ TEST_CASE("cost: the memory's interface counts where the table says so") {
         Approx((4 * 17e-3 + 4 * 8 * 7e-3) * 2e-6 + 32 * (1 + 1.5) * 512e-12));
 }
 
+TEST_CASE("cost: area with and without the memory's interface, whatever the table counts") {
+  Technology technology = priced();
+  technology.memory_interface.mm2 = {0.25, 0.5, 1};
+  for (const bool counted : {false, true}) {
+    technology.memory_interface.counted = counted;
+    const AreaTotals totals = area_totals(frame(), technology);
+    CHECK(totals.without_memory_interface.middle == area_of(frame(), priced()).total.middle);
+    CHECK(totals.with_memory_interface.low == Approx(1.5 + 16.384 + 4 * 0.25));
+    CHECK(totals.with_memory_interface.middle == Approx(3 + 16.384 + 4 * 0.5));
+    CHECK(totals.with_memory_interface.high == Approx(9 + 16.384 + 4 * 1));
+    CHECK((counted ? totals.with_memory_interface : totals.without_memory_interface).middle ==
+          area_of(frame(), technology).total.middle);
+  }
+  FrameResult doubled = frame();
+  doubled.memory.channels *= 2;
+  CHECK(area_totals(doubled, technology).with_memory_interface.middle ==
+        Approx(3 + 16.384 + 8 * 0.5));
+}
+
+TEST_CASE("cost: area by owner is each unit's parts with its on-chip memory") {
+  const Technology technology = priced();
+  FrameResult owned = frame();
+  const MachineResult& machine = owned.machine;
+  owned.machine.owners = {{"hfu", {machine.parts[0]}, machine.sram_uses},
+                          {"merge", {machine.parts[1]}, {}}};
+  const CostResult area = area_by_owner(owned, technology);
+  CHECK(of(area, "hfu").middle == Approx(2 + 16.384));
+  CHECK(of(area, "merge").middle == Approx(1));
+  CHECK(of(area, "memory_interface").middle == Approx(4 * 0.5));
+  CHECK(area.total.middle == Approx(area_totals(owned, technology).with_memory_interface.middle));
+}
+
 TEST_CASE("cost: parts that the table does not have are refused by name") {
   FrameResult other = frame();
   other.machine.parts.push_back({"filter", "divider", 1, 1});

@@ -132,6 +132,28 @@ TEST_CASE("diff: one value changed, by table") {
   }
 }
 
+TEST_CASE("diff: area by owner, the memory's interface included, where both reports tell it") {
+  const ScratchFolder scratch;
+  const auto with_channels = [](double channels) {
+    json view = view_of(0);
+    view["area_mm2"]["with_memory_interface"] = {{"middle", 2 + channels}};
+    view["area_mm2"]["by_owner"] = {{"hfu", 2.0}, {"memory_interface", channels}};
+    return view;
+  };
+  const ReportedRun earlier = read(scratch, "earlier.json", view_of(0));
+  const ReportedRun a = read(scratch, "a.json", with_channels(4));
+  const ReportedRun b = read(scratch, "b.json", with_channels(8));
+  const ReportDiff diff = diff_runs(a, b);
+  const QuantityChange& die = of(diff, Quantity::kDieArea);
+  CHECK((die.a == 6 && die.b == 10));
+  REQUIRE(die.parts.size() == 1);
+  CHECK(die.parts[0].name == "memory_interface");
+  CHECK(die.parts[0].of_whole == Approx(4.0 / 6));
+  for (const QuantityChange& q : diff_runs(earlier, b).quantities) {
+    CHECK(q.quantity != Quantity::kDieArea);
+  }
+}
+
 TEST_CASE("diff: by weight, quantities and parts, and units that only one run has") {
   const ScratchFolder scratch;
   json changed = view_of(0);

@@ -13,7 +13,7 @@ using Catch::Matchers::Contains;
 Outcome outcome(std::uint64_t cycles, double mm2, const std::string& key = "") {
   Outcome out;
   out.cycles = cycles;
-  out.mm2 = mm2;
+  out.mm2 = out.mm2_with_memory_interface = mm2;
   out.joules = 1;
   out.binding.unit = out.binding.holds = "unit";
   out.binding.utilisation = 0.7;

@@ -120,7 +120,14 @@ TEST_CASE("toy machine: binding, energy, area and SRAM follow from its data shee
   CHECK(area["writer"] == Approx(4 * mm2("comparator")));
   CHECK(area["total"] == Approx(logic + area["sram"].get<double>()));
   CHECK(area["memory_path"] == Approx(path));
-  CHECK(area.size() == 6);  // with the bands
+  CHECK(area.size() == 9);  // with bands, by_owner and two totals more
+  // Owners are the units, the queue between them, the memory path, and the memory's interface.
+  CHECK(area["by_owner"].size() == 5);
+  double owned = 0;
+  for (const auto& [owner, squares] : area["by_owner"].items()) owned += squares.get<double>();
+  CHECK(area["without_memory_interface"]["middle"] == area["total"]);
+  CHECK(area["with_memory_interface"]["middle"] == Approx(owned));
+  CHECK(owned - area["by_owner"]["memory_interface"].get<double>() == Approx(area["total"]));
   constexpr int kPortTables = 2 * 16 * 8;
   CHECK(left_out(view, "unused_sram_scratch") == 4096 - (3 * 8 * 16 + kPortTables));
 
