@@ -59,12 +59,12 @@ import pathlib
 import sys
 from collections.abc import Iterable, Sequence
 
-from results import draw_beside
+from tables import draw_beside
 from exploring import options
 from exploring.axes import ORDERS, Axis, label, of_scene
-from exploring.exploration import Exploration, Work
+from exploring.record import Record, Work
 from exploring.judging import SMALL, SMALL_SIZE, Assignments, Judge, Task, relative_to
-from exploring.measures import NAMES, Objective, objective, requirement, shown, value_at
+from exploring.measures import AREA_BAND, NAMES, Objective, objective, requirement, shown
 from exploring.space import Space, parse_axes, read_points
 from exploring.steps import Steps
 from runs import run_arguments
@@ -78,6 +78,7 @@ from runs.simulations import (
     read_config,
     simulate,
     sram_as_needed,
+    value_at,
     view_numbers_there,
 )
 from runs.sweep_server import SweepServer
@@ -200,16 +201,16 @@ def explore_all(work: Work) -> None:
         work.made.add_last(work.made.judged[point])
 
 
-def area_band(work: Work, kept: SweepServer) -> str:
-    """What the area of the best may be, by what is known of it; empty where nobody asked for area.
-    Of a run of its own, since what is swept keeps no bands."""
+def area_band(work: Work) -> str:
+    """What the area of the best may be, by what is known of it; empty where nobody asked for area,
+    or for its band."""
     task, best = work.judge.task, work.made.best()
     asked = [*(o.measure for o in task.objectives), *(r.measure for r in task.requirements)]
     if not best or NAMES["mm2"] not in (measure.path for measure in (*asked, *task.shown)):
         return ""
     own = of_scene(best.assignments, label(task.views[0][0].name))
-    views = simulate(kept.binary, task.small_run(own)).views
-    band = value_at(views[0], "area_mm2.bands.total") if views else None
+    views = work.judge.machine(own)
+    band = value_at(views[0], AREA_BAND) if views else None
     return (
         f"mm2 of the best: {band['low']:.2f} to {band['high']:.2f} by its sources." if band else ""
     )
@@ -240,7 +241,7 @@ def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Seque
     options.check_search(arguments.search, task)
     task = relative_to(task, kept.outcomes)
     judge = Judge(task, kept.outcomes)
-    work = Work(arguments, space, judge, Exploration(task, beside))
+    work = Work(arguments, space, judge, Record(task, beside))
     complete = False
     try:
         for assignments in beside:
@@ -262,7 +263,7 @@ def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Seque
     if not work.made.told():
         why = work.made.not_told() or ["there was no time for any configuration (--minutes)"]
         raise ValueError(why[0].removeprefix("Refused: "))
-    work.made.remarks.append(area_band(work, kept))
+    work.made.remarks.append(area_band(work))
     work.made.write(arguments.out, "explore", arguments.streaminggs)
     for earlier in arguments.out.glob("explore_best*.json"):
         earlier.unlink()

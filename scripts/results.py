@@ -24,7 +24,7 @@ import re
 import sys
 from collections.abc import Iterator
 
-from results import facts_of, markdown_of, page
+from tables import facts_of, markdown_of, page
 from runs import run_arguments
 from runs.files import write_text
 from runs.scenes import REPOSITORY

@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from reporting.folder import Run, find_runs
-from results import facts_of, made_sentence
+from tables import facts_of, made_sentence
 from runs.files import read_text
 
 

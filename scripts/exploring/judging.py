@@ -10,10 +10,10 @@ import threading
 from collections.abc import Callable, Sequence
 
 from exploring.axes import Assignments, Axis, key_of, label, nearest, of_scene, scope_of
-from exploring.measures import EACH, Measure, Objective, Requirement, value_at
+from exploring.measures import EACH, Measure, Objective, Requirement
 from exploring.space import At, Space
 from runs.scenes import Scene
-from runs.simulations import GROUP, Outcome, Run, shape_of
+from runs.simulations import GROUP, Outcome, Run, shape_of, value_at
 
 Simulate = Callable[[Sequence[Run]], Sequence[Outcome]]  # called from several threads
 View = tuple[Scene, int]

@@ -25,7 +25,7 @@ import re
 import statistics
 from collections.abc import Callable, Mapping, Sequence
 
-from runs.simulations import sram_bytes
+from runs.simulations import sram_bytes, value_at
 
 Views = Sequence[dict]
 
@@ -36,6 +36,7 @@ def filter_lanes(view: dict) -> int:
     return view["config"]["hfus"] * (hfu["cfus"] * hfu["cfu_lanes"] + hfu["ffu_lanes"])
 
 
+AREA_BAND = "area_mm2.bands.total"  # low, middle and high, by the sources
 # Names of what is asked for most, and of what no number of the report says.
 NAMES = {
     "fps": "frame.fps",
@@ -66,13 +67,6 @@ AGGREGATES: dict[str, Callable[[Sequence[float]], float]] = {
     "p99": nearest_rank_99,
 }
 GEOMEAN, EACH, WORST = "geomean", "each", "worst"
-
-
-def value_at(report: object, path: str) -> object:
-    """What the report has at a path; None when there is nothing."""
-    for key in path.split("."):
-        report = report.get(key) if isinstance(report, dict) else None
-    return report
 
 
 def number_at(view: dict, path: str) -> float:
@@ -288,13 +282,3 @@ def requirement(text: str) -> Requirement:
         return Requirement(text.strip(), of, relation == ">=", **bound_of(right))
     except ValueError as error:
         raise ValueError(f"--require: {error}") from error
-
-
-def dominates(a: Sequence[float], b: Sequence[float]) -> bool:
-    """a is nowhere worse than b, and somewhere better. Costs, all to be small."""
-    return all(x <= y for x, y in zip(a, b)) and any(x < y for x, y in zip(a, b))
-
-
-def pareto_front(points: Sequence[Sequence[float]]) -> list[bool]:
-    """For each point, whether no other one dominates it."""
-    return [not any(dominates(other, point) for other in points) for point in points]

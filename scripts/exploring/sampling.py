@@ -8,12 +8,12 @@ import random
 import warnings
 
 import optuna
-from exploring.exploration import Work
+from exploring.record import Work
 from exploring.judging import NOT_DRAWN, Judged
-from exploring.measures import dominates
 from exploring.space import At
 from exploring.study import JUDGED, SAME_AS, Study, locked, open_storage, sampler, unpacked
 from runs.files import content_digest
+from runs.front import dominates
 from runs.simulations import Run, named_files
 
 SAMPLED_EVERY = 4  # what the sampler proposes; between them what is next to the best

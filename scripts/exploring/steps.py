@@ -22,7 +22,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from exploring.axes import STRUCTURE, Assignments, label
-from exploring.exploration import Work
+from exploring.record import Work
 from exploring.judging import Drawn, Judged, View
 from exploring.space import At
 

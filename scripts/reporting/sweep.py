@@ -12,11 +12,12 @@ import pathlib
 import shlex
 from collections.abc import Callable, Collection, Sequence
 
-from exploring.measures import pareto_front, value_at
 from reporting import tables
 from reporting.charts import details, escaped
 from reporting.folder import Table, flat
 from runs.files import read_text
+from runs.front import pareto_front
+from runs.simulations import value_at
 
 DONE = "done"
 STATUSES = (DONE, "refused", "failed")

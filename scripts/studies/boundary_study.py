@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import argparse
 
-import results
-from results import SCENE, Column
+import tables
+from tables import SCENE, Column
 from runs import run_arguments
 from runs.keeper import Fitted
 from studies import subjects
@@ -102,9 +102,9 @@ def make(arguments: argparse.Namespace) -> None:
                 cases.append((subject.name, factor * preset, factor, beta))
                 fittings.append(calls.boundary(subject, factor * preset, beta))
     fitted = kept.all(fittings)
-    by = results.made(binary, [{"commit": kept.commit}], sources)
+    by = tables.made(binary, [{"commit": kept.commit}], sources)
     looks, ends = TABLES[arguments.misordered_in]
     rows = [row for case, each in zip(cases, fitted) for row in rows_of(case, each)]
-    results.write(arguments.out, looks, by, COLUMNS, rows)
+    tables.write(arguments.out, looks, by, COLUMNS, rows)
     summary = [summary_row(case, each) for case, each in zip(cases, fitted)]
-    results.write(arguments.out, ends, by, SUMMARY_COLUMNS, summary)
+    tables.write(arguments.out, ends, by, SUMMARY_COLUMNS, summary)

@@ -23,8 +23,8 @@ import sys
 import tempfile
 from collections.abc import Iterator, Sequence
 
-import results
-from results import SCENE, VIEW, Column
+import tables
+from tables import SCENE, VIEW, Column
 from runs import run_arguments, simulations
 from runs.keeper import Fitted, Fitting, Keeper
 from runs.scenes import Scene, find_scenes
@@ -155,9 +155,9 @@ def make_image(scenes: list[Scene], arguments: argparse.Namespace) -> None:
         raise ValueError("all points are refused")
     order = {scene.name: at for at, scene in enumerate(scenes)}
     rows = sorted((row for row, _ in found), key=lambda cells: order[cells[0]])
-    by = results.made_of(arguments.streaminggs, (view for _, view in found), scenes)
-    results.write(arguments.out, "error_image", by, IMAGE_COLUMNS, rows)
-    results.draw_beside(arguments.out, "error_image", "error_image_kinds")
+    by = tables.made_of(arguments.streaminggs, (view for _, view in found), scenes)
+    tables.write(arguments.out, "error_image", by, IMAGE_COLUMNS, rows)
+    tables.draw_beside(arguments.out, "error_image", "error_image_kinds")
 
 
 def looks_every(steps: int) -> tuple[str, ...]:
@@ -219,9 +219,9 @@ def make_tuning(scenes: list[Scene], arguments: argparse.Namespace) -> None:
     ]
     fitted = kept.all([fitting for _, fitting in asked])
     rows = [row for (facts, _), each in zip(asked, fitted) for row in tuning_rows(each, *facts)]
-    by = results.made(arguments.streaminggs, [{"commit": kept.commit}], [*scenes, *folders])
-    results.write(arguments.out, "error_tuning", by, TUNING_COLUMNS, rows)
-    results.draw_beside(arguments.out, "error_tuning")
+    by = tables.made(arguments.streaminggs, [{"commit": kept.commit}], [*scenes, *folders])
+    tables.write(arguments.out, "error_tuning", by, TUNING_COLUMNS, rows)
+    tables.draw_beside(arguments.out, "error_tuning")
 
 
 def laid_out(scene: Scene, folder: pathlib.Path) -> str:
@@ -266,9 +266,9 @@ def make_renderers(scenes: list[Scene], arguments: argparse.Namespace) -> None:
                 )
                 rows += found
     commit = {"commit": program_version(arguments.streaminggs)}
-    by = results.made(program, [commit], scenes)
-    results.write(arguments.out, "error_renderers", by, RENDERER_COLUMNS, rows)
-    results.draw_beside(arguments.out, "error_renderers")
+    by = tables.made(program, [commit], scenes)
+    tables.write(arguments.out, "error_renderers", by, RENDERER_COLUMNS, rows)
+    tables.draw_beside(arguments.out, "error_renderers")
 
 
 DIAGRAMS = {"image": make_image, "tuning": make_tuning, "renderers": make_renderers}

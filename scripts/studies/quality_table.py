@@ -19,8 +19,8 @@ import argparse
 import dataclasses
 from collections.abc import Sequence
 
-import results
-from results import PRESET, SCENE, Column, Spread
+import tables
+from tables import PRESET, SCENE, Column, Spread
 from runs import run_arguments
 from runs.keeper import Fitting, KeptFittings
 from studies import subjects
@@ -183,7 +183,7 @@ def make(arguments: argparse.Namespace) -> None:
         rows += [row for order, of in by_order.items() for row in quality_rows(subject, order, of)]
         if subject.dataset:
             rows += steps_alone_rows(subject, by_order["exact"])
-    by = results.made_of(binary, measured, sources)
+    by = tables.made_of(binary, measured, sources)
     spread = Spread("picture", "{PSNR dB} dB, {SSIM}")
-    results.write(arguments.out, "quality_table", by, COLUMNS, rows, spread=spread)
-    results.write(arguments.out, "quality_machine", by, MACHINE_COLUMNS, machine_rows)
+    tables.write(arguments.out, "quality_table", by, COLUMNS, rows, spread=spread)
+    tables.write(arguments.out, "quality_machine", by, MACHINE_COLUMNS, machine_rows)

@@ -10,8 +10,8 @@ import math
 import pathlib
 from collections.abc import Sequence
 
-import results
-from results import Column
+import tables
+from tables import Column
 from runs import run_arguments, simulations
 
 PROGRAM = simulations.BINARY.with_name("stability")
@@ -110,8 +110,8 @@ def add_arguments(to: run_arguments.Parser) -> None:
 
 def make(arguments: argparse.Namespace) -> None:
     answer = measured(arguments.stability, arguments.samples, arguments.seed)
-    by = results.made(arguments.stability, [answer])
+    by = tables.made(arguments.stability, [answer])
     studies = answer["studies"]
-    results.write(arguments.out, "stability", by, COLUMNS, map(row_of, studies))
+    tables.write(arguments.out, "stability", by, COLUMNS, map(row_of, studies))
     rows = [row for study in studies for row in place_rows(study)]
-    results.save(arguments.out, "stability_places", by, PLACE_COLUMNS, rows)
+    tables.save(arguments.out, "stability_places", by, PLACE_COLUMNS, rows)

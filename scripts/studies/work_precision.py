@@ -13,8 +13,8 @@ import argparse
 import itertools
 import sys
 
-import results
-from results import PSNR, SCENE, VIEW, Column
+import tables
+from tables import PSNR, SCENE, VIEW, Column
 from runs import run_arguments
 from runs.scenes import find_scenes
 from runs.simulations import (
@@ -125,6 +125,6 @@ def make(arguments: argparse.Namespace) -> None:
     found = [(outcome.run.scene.name, view) for outcome in outcomes for view in outcome.views]
     if not found:
         outcomes[0].accepted()
-    by = results.made_of(arguments.streaminggs, (view for _, view in found), scenes)
+    by = tables.made_of(arguments.streaminggs, (view for _, view in found), scenes)
     rows = [row(scene, view) for scene, view in found]
-    results.write(arguments.out, "work_precision", by, COLUMNS, rows)
+    tables.write(arguments.out, "work_precision", by, COLUMNS, rows)

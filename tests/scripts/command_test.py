@@ -14,7 +14,7 @@ from studies import energy
 from studies import error_against_time
 from studies import fair_fight
 import explore
-import results
+import tables
 from studies import half_by_stage
 from studies import paper_claims
 from studies import published_figures
@@ -148,7 +148,7 @@ class WithTheCommand(InFolder):
         for name in names:
             self.assertEqual(made.count(f"| 64x36 | truck | {name} |"), 2, made)
             self.assertEqual(made.count(f"| 64x36 | {name} |"), 1, made)
-        rows = results.read_rows(self.folder, "fair_fight_front")
+        rows = tables.read_rows(self.folder, "fair_fight_front")
         self.assertEqual({row["order"] for row in rows}, {"exact", "paper"})
         self.assertIn("yes", [row["on the front"] for row in rows])
 

@@ -6,16 +6,16 @@ import math
 import unittest
 
 import in_folder  # noqa: F401, isort: skip (finds the scripts)
-from studies import compare_machines, machines, timing
+from studies import compare_machines, timing
 from runs.scenes import Scene
-from studies.machines import Case, sizes_of
+from studies.cases import busiest_of_kernels, busiest_seconds, Case, Entry, GPU, Measured, sizes_of
 
 NAMES = [column.name for column in compare_machines.RATIO_COLUMNS]
 
 
-def measured(*seconds: float, region: float = 0) -> machines.Measured:
+def measured(*seconds: float, region: float = 0) -> Measured:
     """Whose busiest resource works half of the time."""
-    return machines.Measured(
+    return Measured(
         seconds=seconds,
         busiest_seconds=tuple(s / 2 for s in seconds),
         joules=seconds,
@@ -115,7 +115,7 @@ class Machines(unittest.TestCase):
 
     def test_what_is_published_stands_beside_all_sizes_and_says_what_is_derived(self):
         gpu = dataclasses.replace(measured(1, 2), joules=(5, 10), precision="fp32")
-        of_case = {"gscore": measured(1, 1), "paper": measured(1, 1), machines.GPU: gpu}
+        of_case = {"gscore": measured(1, 1), "paper": measured(1, 1), GPU: gpu}
         for own, sizes, speed, joules in (
             ("paper", "all", "45.7", "62.9"),
             ("gscore", "all", "21.6", "27.3 derived"),
@@ -123,7 +123,7 @@ class Machines(unittest.TestCase):
         ):
             with self.subTest(own, sizes=sizes):
                 found = {"s": [of_case]}
-                made = compare_machines.ratio_row(25.6, sizes, found, own, machines.GPU)
+                made = compare_machines.ratio_row(25.6, sizes, found, own, GPU)
                 of = dict(zip(NAMES, made, strict=True))
                 self.assertEqual((of["published speed"], of["published energy"]), (speed, joules))
                 said = "modelled; joules derived: 5 W x its time"
@@ -143,7 +143,7 @@ class Machines(unittest.TestCase):
             for name, (precision, encoding) in kinds.items()
         }
         pairs = compare_machines.pairs_of(of, list(kinds))
-        self.assertEqual(pairs[: len(kinds)], [(name, machines.GPU) for name in kinds])
+        self.assertEqual(pairs[: len(kinds)], [(name, GPU) for name in kinds])
         self.assertEqual(
             pairs[len(kinds) :],
             [
@@ -160,14 +160,14 @@ class Machines(unittest.TestCase):
         case = Case(Scene("s", "a"), "4x2")
         faster = dataclasses.replace(measured(1), peak_gb_s=51.2, binds="dram")
         entries = [
-            machines.Entry(case, name, of)
+            Entry(case, name, of)
             for name, of in (
                 ("gscore_lossless", measured(6, region=3e6)),
                 ("exact", measured(2, 2, region=1e6)),
                 ("exact_fp16", measured(1)),
                 ("gscore_lossless", dataclasses.replace(faster, seconds=(2.5,))),
                 ("exact_fast", faster),
-                (machines.GPU, measured(30)),
+                (GPU, measured(30)),
             )
         ]
         place = ("s", "4x2")
@@ -200,11 +200,11 @@ class Machines(unittest.TestCase):
             entry
             for case, seconds in zip(cases, times)
             for entry in (
-                machines.Entry(case, "gscore", measured(seconds)),
-                machines.Entry(case, "exact", measured(3)),
-                machines.Entry(
+                Entry(case, "gscore", measured(seconds)),
+                Entry(case, "exact", measured(3)),
+                Entry(
                     case,
-                    machines.GPU,
+                    GPU,
                     dataclasses.replace(measured(30), peak_gb_s=102.4),
                 ),
             )
@@ -226,10 +226,10 @@ class Machines(unittest.TestCase):
 
     def test_how_long_the_busiest_works(self):
         view = {"frame": {"time_s": 4e-3}, "binding": {"utilisation": 0.75}}
-        self.assertAlmostEqual(machines.busiest_seconds(view), 3e-3)
+        self.assertAlmostEqual(busiest_seconds(view), 3e-3)
         stages = [("bytes", 2), ("instructions", 4), ("bytes", 3)]
         gpu = {"stages": [{"bound_by": bound, "seconds": s} for bound, s in stages]}
-        self.assertEqual(machines.busiest_of_kernels(gpu), 5)
+        self.assertEqual(busiest_of_kernels(gpu), 5)
         m = dataclasses.replace(measured(1, 3), busiest_seconds=(0.5, 1.5))
         self.assertEqual((m.frames_a_second(), m.most_frames_a_second()), (0.5, 1))
 

@@ -9,17 +9,17 @@ import in_folder  # noqa: F401, isort: skip (finds the scripts)
 from exploring import measures, space
 from exploring.axes import Axis, of_scene
 from studies import binding_check, energy, stability_table, work_precision
-from runs import simulations
+from runs import front, simulations
 from runs.scenes import find_scene, find_scenes
 
 
 class Pareto(unittest.TestCase):
     def test_what_another_beats_everywhere_is_not_on_the_front(self):
         points = [(1, 9), (5, 5), (9, 1), (6, 6), (5, 6)]
-        self.assertEqual(measures.pareto_front(points), [True, True, True, False, False])
+        self.assertEqual(front.pareto_front(points), [True, True, True, False, False])
 
     def test_equal_points_stay_together(self):
-        self.assertEqual(measures.pareto_front([(2, 2), (2, 2), (3, 2)]), [True, True, False])
+        self.assertEqual(front.pareto_front([(2, 2), (2, 2), (3, 2)]), [True, True, False])
 
 
 class Measures(unittest.TestCase):

@@ -7,9 +7,10 @@ import math
 import unittest
 from unittest import mock
 
-from in_folder import RESULTS, InFolder  # isort: skip (finds the scripts)
+from in_folder import InFolder  # isort: skip (finds the scripts)
 import results
-from results import Column, Made, Spread, page
+import tables
+from tables import Column, Made, Spread, page
 
 BY = Made("scripts/results.py one truck", ("abc",))
 COLUMNS = (
@@ -24,8 +25,8 @@ ROWS = (("a|b", 0, 12345, 31.25), ("c", 1, 6, math.inf), ("d", 2, None, None))
 class Writing(InFolder):
     def written(self, columns=COLUMNS, rows=ROWS, by=BY, **more) -> str:
         with contextlib.redirect_stdout(io.StringIO()) as out:
-            results.write(self.folder, "one", by, columns, rows, **more)
-        text = results.markdown_of(self.folder, "one")
+            tables.write(self.folder, "one", by, columns, rows, **more)
+        text = tables.markdown_of(self.folder, "one")
         self.assertEqual(out.getvalue(), text + "\n\n")
         return text
 
@@ -88,7 +89,7 @@ class Writing(InFolder):
             self.written((COLUMNS[0], COLUMNS[0]), (("a", "b"),))
         (self.folder / "one.json").write_text("{}")
         with self.assertRaisesRegex(ValueError, "one.json: expected what says how a table"):
-            results.markdown_of(self.folder, "one")
+            tables.markdown_of(self.folder, "one")
 
     def test_who_made_it(self):
         words = ["results.py", "one", "truck", "--out", "x", "--side-by-side=1", "--kept", "y"]
@@ -97,8 +98,8 @@ class Writing(InFolder):
         program.write_text("it")
         told = [{"commit": "b", "version": "1"}, {"commit": ""}, {"commit": "a", "version": "1"}]
         with mock.patch("sys.argv", words):
-            scenes = [results.Scene("truck", str(self.scene)), results.Scene("b", "builtin:b?n=1")]
-            by = results.made(program, told, [*scenes, self.write_dataset()])
+            scenes = [tables.Scene("truck", str(self.scene)), tables.Scene("b", "builtin:b?n=1")]
+            by = tables.made(program, told, [*scenes, self.write_dataset()])
         self.assertEqual(by.command, "scripts/results.py one truck --cross")
         self.assertEqual((by.commits, by.releases), (("a", "b"), ("1",)))
         self.assertEqual(list(by.inputs), ["truck.ply", "builtin:b?n=1", "photographs"])
@@ -112,48 +113,48 @@ class Places(InFolder):
 
     def test_places_in_the_readme(self):
         with contextlib.redirect_stdout(io.StringIO()):
-            results.write(self.folder, "one", BY, COLUMNS, ROWS)
-        text = results.markdown_of(self.folder, "one")
+            tables.write(self.folder, "one", BY, COLUMNS, ROWS)
+        text = tables.markdown_of(self.folder, "one")
         with contextlib.redirect_stderr(io.StringIO()) as said:
-            filled = RESULTS.filled(self.README, self.folder)
+            filled = results.filled(self.README, self.folder)
         self.assertEqual(filled, self.README.replace("old\n", text))
         self.assertRegex(said.getvalue(), "two.json: not there, its place is left")
 
     def test_a_table_of_changed_sources_is_refused(self):
         for commits, refused in ((("abc-dirty",), True), (("a", "d-dirty"), True), (("a",), False)):
             with contextlib.redirect_stdout(io.StringIO()):
-                results.write(self.folder, "one", Made("x", commits), COLUMNS, ROWS)
+                tables.write(self.folder, "one", Made("x", commits), COLUMNS, ROWS)
             said = contextlib.redirect_stderr(io.StringIO())
             with self.subTest(commits), said:
                 if refused:
                     with self.assertRaisesRegex(ValueError, "one.json: commit .*-dirty"):
-                        RESULTS.filled(self.README, self.folder)
+                        results.filled(self.README, self.folder)
                 else:
-                    self.assertIn("12,345", RESULTS.filled(self.README, self.folder))
+                    self.assertIn("12,345", results.filled(self.README, self.folder))
 
     def test_readmes_of_sources_only(self):
         for name in ("", "modules/dram", "build/release", "out/x", ".git"):
             (self.folder / name).mkdir(parents=True, exist_ok=True)
             (self.folder / name / "README.md").write_text("text\n")
-        found = [str(path.relative_to(self.folder)) for path in RESULTS.readmes(self.folder)]
+        found = [str(path.relative_to(self.folder)) for path in results.readmes(self.folder)]
         self.assertEqual(found, ["README.md", "modules/dram/README.md"])
 
     def test_from_the_command_line(self):
         with contextlib.redirect_stdout(io.StringIO()):
-            results.write(self.folder, "one", BY, COLUMNS, ROWS)
+            tables.write(self.folder, "one", BY, COLUMNS, ROWS)
         readme = self.folder / "README.md"
         readme.write_text(self.README)
         words = ("--fill", str(readme), "--tables", str(self.folder))
-        status, _, out = self.ended(RESULTS, *words)
+        status, _, out = self.ended(results, *words)
         self.assertEqual((status, out), (0, f"{readme}\n"))
         self.assertIn("| 12,345 |", readme.read_text())
-        status, said, _ = self.ended(RESULTS, "--fill", "nowhere")
+        status, said, _ = self.ended(results, "--fill", "nowhere")
         self.assertEqual((status, said), (2, "results.py: nowhere: No such file or directory"))
 
     def test_no_half_file(self):
         with mock.patch("os.replace", side_effect=OSError(28, "No space left on device")):
             with self.assertRaises(OSError):
-                results.write_text(self.folder / "one", "text")
+                tables.write_text(self.folder / "one", "text")
         self.assertEqual(list(self.folder.glob("one*")), [])
 
 
@@ -168,7 +169,7 @@ class Pages(InFolder):
         self.ask()
 
     def write_table(self, name: str, by: Made):
-        results.save(self.tables, name, by, COLUMNS, ROWS, "What to know.")
+        tables.save(self.tables, name, by, COLUMNS, ROWS, "What to know.")
 
     def ask(self, **more):
         asked = {"question": "Which?", "finding": "This one.", "table": "one", "command": "make it"}
@@ -200,7 +201,7 @@ class Pages(InFolder):
             with self.subTest(said), self.assertRaisesRegex(ValueError, said):
                 page.readme(self.tables)
         self.ask()
-        results.save(self.tables, "one", BY, COLUMNS, ROWS * 4)
+        tables.save(self.tables, "one", BY, COLUMNS, ROWS * 4)
         with self.assertRaisesRegex(ValueError, "12 rows of one"):
             page.readme(self.tables)
 
@@ -228,24 +229,24 @@ class Pages(InFolder):
 
     def test_check_from_the_command_line(self):
         words = ("--check", "--tables", str(self.tables))
-        with mock.patch.object(RESULTS, "REPOSITORY", self.folder):
-            status, said, _ = self.ended(RESULTS, *words)
+        with mock.patch.object(results, "REPOSITORY", self.folder):
+            status, said, _ = self.ended(results, *words)
             self.assertEqual(status, 2)
             self.assertIn("tables/README.md: not what its tables give", said)
-            status, _, out = self.ended(RESULTS, "--pages", "--tables", str(self.tables))
+            status, _, out = self.ended(results, "--pages", "--tables", str(self.tables))
             self.assertEqual((status, out), (0, "tables/README.md\nout/results.html\n"))
-            self.assertEqual(self.ended(RESULTS, *words), (0, "", ""))
+            self.assertEqual(self.ended(results, *words), (0, "", ""))
             self.write_table("two", Made("y", ("d",), ("0.2.0",)))
-            self.ended(RESULTS, "--pages", "--tables", str(self.tables))
-            self.assertIn("0.2.0, d: two", self.ended(RESULTS, *words)[1])
+            self.ended(results, "--pages", "--tables", str(self.tables))
+            self.assertIn("0.2.0, d: two", self.ended(results, *words)[1])
 
     def test_pages_of_this_repository(self):
         """What --check says of releases is not asked here."""
         with contextlib.redirect_stderr(io.StringIO()):
-            self.assertEqual(RESULTS.out_of_date(RESULTS.TABLES), [])
+            self.assertEqual(results.out_of_date(results.TABLES), [])
 
     def test_minutes_of_studies(self):
-        status, _, out = self.ended(RESULTS, "--list")
+        status, _, out = self.ended(results, "--list")
         self.assertEqual(status, 0)
         self.assertRegex(out, r"compare_machines +120 min  Machines beside each other\n")
         self.assertRegex(out, r"binding_check +not timed  Whether")

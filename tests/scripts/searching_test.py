@@ -13,9 +13,9 @@ from in_folder import COMMAND, InFolder, nightly  # isort: skip (finds the scrip
 import explore
 from exploring import options
 from exploring.axes import ORDERS, axis, nearest
-from exploring.exploration import Exploration, Work
+from exploring.record import Record, Work
 from exploring.judging import SMALL, Judge, Judged, Task, relative_to
-from exploring.measures import objective, requirement, value_at
+from exploring.measures import objective, requirement
 from exploring.space import Space, keys_of, parse_axis
 from exploring.steps import Steps
 from runs import simulations
@@ -104,7 +104,7 @@ def searched(
     )
     task = relative_to(task, formulas.outcomes)
     arguments = argparse.Namespace(trials=trials, minutes=0)
-    work = Work(arguments, space, Judge(task, formulas.outcomes), Exploration(task, {}))
+    work = Work(arguments, space, Judge(task, formulas.outcomes), Record(task, {}))
     with contextlib.redirect_stderr(io.StringIO()):
         Steps(work).search()
     return work
@@ -306,7 +306,7 @@ class Recipes(InFolder):
         words += [f"--axis={text}" for text in free]
         chosen = {key for text in free for a in parse_axis(text) for key in keys_of(a)}
         keys = {key for a in order.axes for key in keys_of(a)} - chosen
-        words += [f"--axis={key}={value_at(config, key)}" for key in sorted(keys)]
+        words += [f"--axis={key}={simulations.value_at(config, key)}" for key in sorted(keys)]
         found, drawn = self.front("found", f"--recipe={name}", "--view", view, *words)
         words += [f"--machine={order.name}", f"--objectives={told['objectives']}"]
         best, of_all = self.front("grid", "--view", view, *words)

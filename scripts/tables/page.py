@@ -14,12 +14,11 @@ import pathlib
 import re
 from collections.abc import Mapping, Sequence
 
-import results
 from reporting import tables
 from reporting.charts import details, escaped, table
 from reporting.folder import read_table
 from report import Panel, page
-from results import facts_of, made_sentence, table_of
+from tables import facts_of, made_sentence, markdown, table_of
 from runs.files import read_bytes, read_json
 
 README, QUESTIONS = "README.md", "questions.json"
@@ -87,7 +86,7 @@ def readme(folder: pathlib.Path) -> str:
     return (
         text
         + "\n## All tables\n\nUnits, meanings and what limits a table stand in its `.json`.\n\n"
-        + f"<!-- rows: all -->\n{results.markdown(('table', 'made by'), listed)}<!-- end -->\n"
+        + f"<!-- rows: all -->\n{markdown(('table', 'made by'), listed)}<!-- end -->\n"
     )
 
 

@@ -11,19 +11,19 @@ import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 
-import results
+import tables
 from exploring.axes import Assignments, label, scope_of
 from exploring.judging import Judge, Judged, Task
-from exploring.measures import pareto_front
 from exploring.space import Space
-from results import Column
+from tables import Column
+from runs.front import pareto_front
 from runs.simulations import Run
 
 NOT_DRAWN = "not all views drawn"
 SETTING = "what was simulated, by its key"
 
 
-class Exploration:
+class Record:
     """For several threads."""
 
     def __init__(self, task: Task, names: Mapping[Assignments, str]):
@@ -122,9 +122,9 @@ class Exploration:
         front = self.front()
         rows = [self.row(judged, front) for judged in self.told()]
         scenes = dict.fromkeys(scene for scene, _ in self.task.views)
-        by = results.made(program, [judged.provenance for judged in self.told()], scenes)
+        by = tables.made(program, [judged.provenance for judged in self.told()], scenes)
         only = {"holds": "yes" if self.task.requirements else "", "front": "yes"}
-        results.write(out, name, by, self.columns(rows), rows, remark + self.about(), only=only)
+        tables.write(out, name, by, self.columns(rows), rows, remark + self.about(), only=only)
 
     def nearest_miss(self) -> str:
         """Where none holds: what those that miss least miss, and by how much."""
@@ -149,7 +149,7 @@ class Work:
     arguments: argparse.Namespace
     space: Space
     judge: Judge
-    made: Exploration
+    made: Record
     began: float = dataclasses.field(default_factory=time.monotonic)
     reporting: threading.Lock = dataclasses.field(default_factory=threading.Lock)
 
