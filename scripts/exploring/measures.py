@@ -11,8 +11,9 @@ or large, what it requires and what it shows beside.
   BOUND        NUMBER, or so many times what a preset or file comes to on the same views, and some
                more or less: NUMBER x CONFIG, NUMBER x CONFIG - NUMBER
 
-A PATH alone is the sum over the views, but for what an accelerator has or is (`config`, `sram`,
-`area_mm2`), which is as large for each scene as that scene's storage makes it: the largest counts.
+A PATH alone is the sum over the views, and is shown as `sum(PATH)`, but for what an accelerator has
+or is (`config`, `sram`, `area_mm2`), which is as large for each scene as that scene's storage makes
+it: the largest counts. Rates and ratios (fps, watts, psnr_db) have no sum: an aggregate is needed.
 worst(PATH) in an objective is the largest of what should be small, the smallest of what should be
 large.
 """
@@ -46,8 +47,13 @@ NAMES = {
     "joules": "energy.total_j",
     "watts": "energy.mean_power_w",
     "mm2": "area_mm2.total",
+    "mm2_high": f"{AREA_BAND}.high",
     "psnr_db": "image.psnr_db",
 }
+# Names of whole measures: their aggregate and path.
+WHOLE = {"joules_mean": ("mean", NAMES["joules"])}
+# A sum of these says nothing.
+WITHOUT_SUM = ("fps", "watts", "psnr_db")
 COMPUTED: dict[str, Callable[[dict], float]] = {
     "sram_bytes": sram_bytes,
     "filter_lanes": filter_lanes,
@@ -115,16 +121,24 @@ FORM = re.compile(r"\s*(?:([a-z0-9]+)\(\s*([\w.]+)\s*\)|([\w.]+))\s*")
 
 
 def measure(text: str, more: Mapping[str, str] = {}) -> Measure:
-    """more: aggregates by names that have a meaning only where it stands. Raises ValueError."""
+    """more: aggregates by names that have a meaning only where it stands. Its text says what is
+    taken of the views. Raises ValueError."""
     found = FORM.fullmatch(text)
     if not found:
         raise ValueError(f"'{text.strip()}', expected PATH or AGGREGATE(PATH)")
     aggregate, inner, alone = found.groups()
     path = NAMES.get(inner or alone, inner or alone)
+    if alone in WHOLE:
+        return Measure(alone, *WHOLE[alone])
     if alone:
-        machine = path in COMPUTED or path.partition(".")[0] in OF_THE_MACHINE
-        aggregate = "max" if machine else "sum"
-    elif aggregate in more:
+        if path in COMPUTED or path.partition(".")[0] in OF_THE_MACHINE:
+            return Measure(alone, "max", path)
+        for name in WITHOUT_SUM:
+            if path == NAMES[name]:
+                expected = f"min({alone}), mean({alone}) or max({alone})"
+                raise ValueError(f"'{alone}': its sum over views says nothing, expected {expected}")
+        return Measure(f"sum({alone})", "sum", path)
+    if aggregate in more:
         aggregate = more[aggregate]
     elif aggregate not in AGGREGATES and aggregate != GEOMEAN:
         known = ", ".join([*AGGREGATES, GEOMEAN, *more])
@@ -171,6 +185,16 @@ def shown(text: str) -> tuple[Measure, ...]:
         return tuple(map(measure, text.split(","))) if text else ()
     except ValueError as error:
         raise ValueError(f"--show: {error}") from error
+
+
+# By how a path begins: what misses an upper bound, and what misses a lower one.
+MISSED = {
+    "frame.fps": ("too fast", "too slow"),
+    "frame.": ("too slow", "too fast"),
+    "area_mm2": ("too large", "too small"),
+    "sram": ("too large", "too small"),
+    NAMES["psnr_db"]: ("too good a picture", "too bad a picture"),
+}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -220,6 +244,13 @@ class Requirement:
             return 0
         missed = bound - value if self.least else value - bound
         return missed / abs(bound) if bound and math.isfinite(bound) else missed
+
+    def missed_in_words(self) -> str:
+        """What a configuration is that misses it."""
+        for start, words in MISSED.items():
+            if self.measure.path.startswith(start):
+                return words[self.least]
+        return "too little" if self.least else "too much"
 
     def worst(self, views: Views) -> tuple[float, float]:
         return max(self.pairs(views), key=lambda pair: self.missed(*pair))

@@ -26,6 +26,9 @@ FIGURES = pathlib.Path(__file__).resolve().parents[1] / "figures.py"
 Row = Sequence[object]
 Cells = Mapping[str, str]
 
+# A column of what is required, and of what is measured with or without an aggregate.
+REQUIRED = re.compile(r"(.+) (>=|<=) ([-+.\de]+)")
+MEASURE = re.compile(r"(?:\w+\()?([\w.]+)\)?")
 NUMBER = re.compile(r"[-+]?[\d,]+(\.\d+)?(e[-+]\d+|%)?")
 
 
@@ -80,6 +83,13 @@ class Made:
 
     def sentence(self) -> str:
         return f"Made by `{self.command}`; commit {', '.join(self.commits) or 'unknown'}.\n\n"
+
+
+def measure_of(column: str) -> str:
+    """What a column is of, without aggregate and bound: fps of `min(fps) >= 90`."""
+    required = REQUIRED.fullmatch(column)
+    found = MEASURE.fullmatch(required[1] if required else column)
+    return found[1] if found else column
 
 
 def made(

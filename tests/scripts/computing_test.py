@@ -57,6 +57,33 @@ class Measures(unittest.TestCase):
                 self.assertEqual(measures.objective(text).cost(views), expected)
         self.assertEqual(measures.measure("min(psnr_db)").of(views[:1]), math.inf)
 
+    def test_a_sum_is_named_one(self):
+        views = [self.view(10, 1.5), self.view(40, 1.6)]
+        views = [{**view, "energy": {"total_j": n}} for n, view in enumerate(views, start=1)]
+        for text, name, value in (
+            ("cycles", "sum(cycles)", 50),
+            ("joules", "sum(joules)", 3),
+            ("joules_mean", "joules_mean", 1.5),
+            ("mean(joules)", "mean(joules)", 1.5),
+            ("mm2", "mm2", 1.6),
+            ("sum(cycles)", "sum(cycles)", 50),
+        ):
+            with self.subTest(text):
+                found = measures.measure(text)
+                self.assertEqual((found.text, found.of(views)), (name, value))
+        self.assertEqual(measures.requirement("joules <= 3").name, "sum(joules) <= 3")
+        for text in ("fps", "frame.fps", "psnr_db", "watts"):
+            with self.subTest(text), self.assertRaisesRegex(ValueError, r"expected min\("):
+                measures.measure(text)
+
+    def test_the_upper_end_of_the_area(self):
+        view = self.view(10, 4.1)
+        view["area_mm2"]["bands"] = {"total": {"low": 3.0, "middle": 4.1, "high": 6.2}}
+        required = measures.requirement("mm2_high <= 5")
+        self.assertAlmostEqual(required.violation([view]), 0.24)
+        self.assertTrue(required.measure.is_of_the_machine())
+        self.assertEqual(required.missed_in_words(), "too large")
+
     def test_99_of_100(self):
         views = [self.view(cycles, 1) for cycles in range(1, 201)]
         self.assertEqual(measures.measure("p99(cycles)").of(views), 198)

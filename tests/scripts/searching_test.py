@@ -6,6 +6,7 @@ import csv
 import io
 import itertools
 import json
+import math
 import pathlib
 import unittest
 
@@ -37,7 +38,11 @@ PRESET |= {"storage.chunk": 16}
 
 
 def settings(run: simulations.Run) -> dict[str, float]:
-    pairs = (override.partition("=") for override in run.overrides)
+    return settings_of(run.overrides)
+
+
+def settings_of(overrides: tuple[str, ...]) -> dict[str, float]:
+    pairs = (override.partition("=") for override in overrides)
     return {**PRESET, **{key: float(value) for key, _, value in pairs}}
 
 
@@ -205,8 +210,24 @@ class Within(unittest.TestCase):
         self.assertEqual(work.made.told(), [])
         self.assertRegex(work.made.not_told()[0], "^Refused: a toy .*: cannot be$")
 
+    @staticmethod
+    def searched_for(formulas: Formulas) -> list[float]:
+        """Areas of what was drawn, but for the preset, which tells how scenes are stored."""
+        return [area(settings_of(overrides)) for *_, overrides in formulas.drawn if overrides]
+
     def test_nothing_fits(self):
-        self.assertIsNone(self.found(0.5))
+        formulas = Formulas()
+        work = searched(formulas, "geomean(cycles)", "mm2 <= 0.5")
+        self.assertEqual((work.made.front(), self.searched_for(formulas)), ([], []))
+        self.assertRegex(work.made.about(), r"None of 1 holds: 1 too large \(mm2 <= 0.5\)")
+        self.assertIn("No steps back from the start lead to mm2 <= 0.5.", work.made.about())
+
+    def test_what_is_too_large_is_not_drawn(self):
+        for required in ((), ("min(fps) >= 40",), ("min(fps) >= 1e9",)):
+            formulas = Formulas()
+            self.found(4, *required, formulas=formulas)
+            with self.subTest(required):
+                self.assertLessEqual(max(self.searched_for(formulas)), 4)
 
 
 class Smallest(unittest.TestCase):
@@ -253,8 +274,18 @@ class Smallest(unittest.TestCase):
         self.assertGreaterEqual(best.values[0], 60)
         work = self.found("min(fps) >= 1e9")
         self.assertEqual(work.made.front(), [])
-        self.assertRegex(work.made.about(), "None holds: the nearest misses min.* by 100")
+        self.assertRegex(work.made.about(), "None of 13 holds: 13 too slow .*misses min.* by 100")
         self.assertIn("One step on any axis gains less than 0.3% of what is", work.made.about())
+
+    def test_only_on_the_way_down_a_machine_that_is_too_large_is_drawn(self):
+        """From a start that holds the rate; from another one nothing but the start."""
+        (best,) = self.found("min(fps) >= 30", "mm2 <= 6").made.front()
+        self.assertLessEqual(best.costs[0], 6)
+        formulas = Formulas()
+        self.found("min(fps) >= 1e9", "mm2 <= 6", formulas=formulas)
+        drawn = [area(settings_of(overrides)) for *_, overrides in formulas.drawn]
+        self.assertEqual({size for size in drawn if size > 6}, {area(PRESET)})
+        self.assertTrue(any(size <= 6 for size in drawn))
 
     def test_what_no_view_tells_alone(self):
         (best,) = self.found("mean(cycles) <= 200").made.front()
@@ -355,6 +386,36 @@ class Recipes(InFolder):
 
 
 class Fronts(unittest.TestCase):
+    def judged(self, *of: tuple[float, float]) -> list[Judged]:
+        """Of cycles and the picture's dB."""
+        return [
+            Judged((f"hfus={n}",), (cycles,), psnr_db=psnr_db, drawn=1)
+            for n, (cycles, psnr_db) in enumerate(of)
+        ]
+
+    def record(self, *of: tuple[float, float]) -> Record:
+        record = Record(Task((), (), "", "", (), (objective("cycles"),), ()), {})
+        for judged in self.judged(*of):
+            record.add(judged)
+        return record
+
+    def test_the_picture_decides_where_pictures_differ(self):
+        inf, nan = math.inf, math.nan
+        for of, front, shown in (
+            (((9, 30.0), (8, 30.04), (7, 30.01)), [7], False),
+            (((9, 40.0), (8, 30.0), (7, 35.0)), [7, 9], True),
+            (((9, inf), (8, 60.0), (7, 59.95)), [7, 8, 9], True),
+            (((9, inf), (8, inf)), [8], False),
+            (((9, nan), (8, nan)), [8], False),
+            (((9, nan), (8, 30.0), (7, 20.0)), [7, 8], True),
+        ):
+            record = self.record(*of)
+            with self.subTest(of):
+                self.assertEqual([judged.costs[0] for judged in record.front()], front)
+                self.assertEqual(record.shows_pictures(), shown)
+                # The best for one objective is that for the objective.
+                self.assertEqual(record.best().costs[0], min(cycles for cycles, _ in of))
+
     def test_of_points_that_are_alike_the_fastest_is_on_the_front(self):
         points = [
             ("exact", 30.0, bus, cycles, 1.0, 5.0, "")

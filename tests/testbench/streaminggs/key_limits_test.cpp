@@ -68,7 +68,7 @@ TEST_CASE("key limits: stated and kept to, of all keys of all machines") {
   }
 }
 
-TEST_CASE("--set group: both sides of a pixel group") {
+TEST_CASE("group of --set: both sides of a pixel group") {
   for (const auto& [shape, sides] : std::map<std::string, std::vector<std::string>>{
            {"64", {"group_width_px=64", "group_height_px=64"}},
            {"160x120", {"group_width_px=160", "group_height_px=120"}}}) {
