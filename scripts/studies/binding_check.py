@@ -16,6 +16,8 @@ from runs import run_arguments
 from runs.scenes import Scene, find_scenes, shared_names
 from runs.simulations import Run, answered, program_version
 
+JOBS = ("results.py binding_check",)
+
 COLUMNS = (
     SCENE,
     VIEW,

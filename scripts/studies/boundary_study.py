@@ -16,6 +16,15 @@ from runs import run_arguments
 from runs.keeper import Fitted
 from studies import subjects
 
+JOBS = (
+    "results.py boundary_study lego truck --size 400x225 --train-steps 8000 "
+    "--paper-set vsu.visit_gaussians=0",
+    "results.py boundary_study platform yard --size 240x135 "
+    "--paper-set vsu.visit_gaussians=0",
+    "results.py boundary_study truck --size 400x225 --paper-set vsu.visit_gaussians=0 "
+    "--misordered-in pixel --betas 0.5 5 50 500 --voxels 1",
+)
+
 CASE = (
     SCENE,
     Column("voxels", "side", "world units", ".4g"),

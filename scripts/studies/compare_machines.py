@@ -50,11 +50,12 @@ from studies.cases import (
     sizes_of,
 )
 
+JOBS = ("results.py compare_machines",)
+
 # By scene, the cases of each: what every machine took.
 Found = Mapping[str, Sequence[Mapping[str, Measured]]]
 OfViews = Callable[[Measured], Sequence[float]]
 
-MINUTES = 120  # on two cores
 ALL_SIZES = "all"  # sizes
 PAIR = (
     Column("machine", "preset"),

@@ -31,6 +31,8 @@ from runs.simulations import (
 )
 from runs.sweep_server import swept
 
+JOBS = ("results.py compare_variants truck playbot platform yard garden park",)
+
 VARIANTS = (
     *("paper", "paper_no_vq", "paper_no_cgf", "paper_no_vq_cgf"),
     *("exact", "exact_half", "exact_vq", "exact_vq_packed"),

@@ -36,6 +36,8 @@ from runs.simulations import (
 )
 from runs.sweep_server import swept
 
+JOBS = ("results.py energy",)
+
 # Second halves raw in both: codebooks are compare_variants' business.
 PRESETS = ("exact", "paper_no_vq")
 # One rule for both: paper order's presets charge a test what the paper states of its filters.

@@ -47,6 +47,13 @@ from studies import subjects
 from studies.error_points import PAPER, PRESETS, Point, points
 from studies.subjects import JudgedFrames, Subject, target_pictures
 
+JOBS = (
+    "results.py error_against_time truck yard platform park --diagrams image",
+    "results.py error_against_time truck yard platform park --diagrams tuning "
+    "--train-steps 3000",
+    "results.py error_against_time truck yard platform park --diagrams renderers",
+)
+
 PROGRAM = simulations.BINARY.with_name("bench_renderers")
 LOOKS = 8  # at the test views, while something is tuned or trained
 PSNR_COLUMN = Column("PSNR dB", "beside the reference picture; inf: equal", "dB", ".2f")

@@ -36,6 +36,15 @@ from runs.scenes import Scene, find_scenes
 from runs.simulations import Outcome, Run, binders, decibels, numbers, vsu_waits
 from runs.sweep_server import swept
 
+JOBS = (
+    "explore.py park platform yard garden truck playbot --recipe exact_in_area "
+    "--out out/exact",
+    "explore.py park platform yard garden truck playbot --recipe paper_in_area "
+    "--out out/paper",
+    "results.py fair_fight park platform yard garden truck playbot "
+    "--found exact=out/exact paper=out/paper",
+)
+
 PRESETS = ("exact", "paper", "exact_wide")
 BESIDE = "paper"  # whose cycles those of all others are held against
 ROUNDING_DB = 50  # above it the rounding to 8 bits decides

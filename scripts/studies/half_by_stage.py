@@ -13,6 +13,8 @@ from runs.scenes import find_scenes
 from runs.simulations import SRAM_AS_NEEDED, Run, decibels
 from runs.sweep_server import swept
 
+JOBS = ("results.py half_by_stage truck platform yard park playbot garden --view 0",)
+
 # Stage: preset, and the keys that put it into half. Records of projected features and depth keys go
 # through memory in the tile-centric machine alone.
 STAGES = {

@@ -20,6 +20,8 @@ from runs.scenes import find_scene, find_scenes, shared_names
 from runs.simulations import Run, cycles, decibels, mean, mm2, work
 from runs.sweep_server import swept
 
+JOBS = ("results.py paper_claims truck playbot platform yard garden park",)
+
 REAL_SIZE, SYNTHETIC_SIZE = "980x545", "800x800"
 BUILT_IN = {"builtin:outdoor?n=1000000": REAL_SIZE, "builtin:object?n=300000": SYNTHETIC_SIZE}
 

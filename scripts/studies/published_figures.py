@@ -26,6 +26,8 @@ from runs.simulations import MB, Outcome, Run, bus_mb, mean, region_bytes, view_
 from runs.sweep_server import swept
 from studies.cases import MODEL, model_all
 
+JOBS = ("results.py published_figures",)
+
 BANDWIDTH = ("dram.channels=8",)  # 8 x LPDDR3-1600 x32 are the published 51.2 GB/s
 
 # NeRArch-Sim (ISCA 2026), Tables VII and VIII: Lego at 800 x 800 px, 190 frames a second. 334,000

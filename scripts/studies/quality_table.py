@@ -38,6 +38,15 @@ from studies.subjects import (
     target_pictures,
 )
 
+JOBS = (
+    "results.py quality_table lego truck --size 400x225 --train-steps 8000 --prices 0.03 "
+    "--paper-set vsu.visit_gaussians=0",
+    "results.py quality_table desk --size 240x135 --train-steps 8000 --prices 0.03 "
+    "--downscale 2 --gaussians 50000 --paper-set vsu.visit_gaussians=0",
+    "results.py quality_table platform yard --size 240x135 --prices 0.03 "
+    "--paper-set vsu.visit_gaussians=0",
+)
+
 REFERENCE, STREAMED, BOUNDARY = "reference", "streamed", "boundary-aware"
 GIVEN, PACKED, QUANTISED = "as given", "packed", "quantisation-aware"
 

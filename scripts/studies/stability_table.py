@@ -14,6 +14,8 @@ import tables
 from tables import Column
 from runs import run_arguments, simulations
 
+JOBS = ("results.py stability_table",)
+
 PROGRAM = simulations.BINARY.with_name("stability")
 
 KINDS = (

@@ -24,6 +24,8 @@ from runs.simulations import Run, keep_no_codebooks, simulate_all
 from studies import cases
 from studies.cases import Case
 
+JOBS = ("results.py timing builtin:object builtin:outdoor yard park --repeats 2",)
+
 # NeRArch-Sim (ISCA 2026), of a design point of GSCore.
 PUBLISHED_SECONDS = 47.7
 

@@ -16,6 +16,11 @@ from runs.keeper import Fitted, Fitting
 from runs.simulations import Failure
 from studies import subjects
 
+JOBS = (
+    "results.py training_curves lego --train-steps 8000 --same-bits 1000",
+    "results.py training_curves desk --train-steps 8000 --seeds 1",
+)
+
 DATASET = Column("data set", "its name")
 SEED = Column("seed", "of the training", "", "d")
 COLUMNS = (

@@ -13,6 +13,8 @@ from runs import run_arguments
 from studies import subjects
 from studies.subjects import FRAME_COLUMNS, JudgedFrames, frame_cells, target_pictures
 
+JOBS = ("results.py voxel_study truck --size 240x135 --paper-set vsu.visit_gaussians=0",)
+
 COLUMNS = (
     SCENE,
     Column("of the preset's", "side of a voxel over the preset's", "", "g"),

@@ -32,6 +32,8 @@ from runs.simulations import (
 )
 from runs.sweep_server import swept
 
+JOBS = ("results.py work_precision builtin:outdoor truck",)
+
 MERGE_ENTRIES = (128, 256, 512, 1024, 2048, 4096)
 ON_OVERFLOW = ("spill", "blend_early")
 GROUPS = ("16", "32", "64", "128")
