@@ -88,8 +88,8 @@ def run(name: str, words: list[str]) -> int:
     parser, study = parser_of(name)
     arguments = parser.parse_args(words)
     status = run_arguments.main_of_tables(study.make, arguments)
-    if status == 0:
-        print(f"tables are in {arguments.out}", file=sys.stderr)
+    if status == 0 and arguments.out == OUT:
+        print(f"tables are in {OUT.relative_to(REPOSITORY)}", file=sys.stderr)
     return status
 
 
