@@ -99,7 +99,7 @@ def make_all(arguments: argparse.Namespace) -> None:
     for name in arguments.all:
         if name not in known:
             raise ValueError(f"--all: got {name}, expected some of {', '.join(known)}")
-    commit = simulations.program_version(simulations.BINARY)
+    commit = simulations.program_provenance(simulations.BINARY)["commit"]
     if page.CHANGED.fullmatch(commit):
         raise ValueError(
             f"{simulations.BINARY}: commit {commit}, expected one of committed sources"

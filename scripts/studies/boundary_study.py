@@ -111,7 +111,7 @@ def make(arguments: argparse.Namespace) -> None:
                 cases.append((subject.name, factor * preset, factor, beta))
                 fittings.append(calls.boundary(subject, factor * preset, beta))
     fitted = kept.all(fittings)
-    by = tables.made(binary, [{"commit": kept.commit}], sources)
+    by = tables.made(binary, [kept.provenance], sources)
     looks, ends = TABLES[arguments.misordered_in]
     rows = [row for case, each in zip(cases, fitted) for row in rows_of(case, each)]
     tables.write(arguments.out, looks, by, COLUMNS, rows)

@@ -39,7 +39,7 @@ from runs.simulations import (
     decibels,
     joules,
     mm2,
-    program_version,
+    program_provenance,
     view_numbers_there,
 )
 from runs.sweep_server import swept
@@ -226,7 +226,7 @@ def make_tuning(scenes: list[Scene], arguments: argparse.Namespace) -> None:
     ]
     fitted = kept.all([fitting for _, fitting in asked])
     rows = [row for (facts, _), each in zip(asked, fitted) for row in tuning_rows(each, *facts)]
-    by = tables.made(arguments.streaminggs, [{"commit": kept.commit}], [*scenes, *folders])
+    by = tables.made(arguments.streaminggs, [kept.provenance], [*scenes, *folders])
     tables.write(arguments.out, "error_tuning", by, TUNING_COLUMNS, rows)
     tables.draw_beside(arguments.out, "error_tuning")
 
@@ -272,8 +272,7 @@ def make_renderers(scenes: list[Scene], arguments: argparse.Namespace) -> None:
                     scene.name, facts, lambda *_: timed(program, scene, words)
                 )
                 rows += found
-    commit = {"commit": program_version(arguments.streaminggs)}
-    by = tables.made(program, [commit], scenes)
+    by = tables.made(program, [program_provenance(arguments.streaminggs)], scenes)
     tables.write(arguments.out, "error_renderers", by, RENDERER_COLUMNS, rows)
     tables.draw_beside(arguments.out, "error_renderers")
 

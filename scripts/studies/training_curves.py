@@ -133,6 +133,6 @@ def make(arguments: argparse.Namespace) -> None:
             rows += curve_rows(name, seed, fitted)
             first = seed == arguments.seeds[0]
             summary.append(summary_row(name, seed, fitted, same_bits if first else ""))
-    by = tables.made(arguments.streaminggs, [{"commit": kept.commit}], folders.values())
+    by = tables.made(arguments.streaminggs, [kept.provenance], folders.values())
     tables.write(arguments.out, "training_curves", by, COLUMNS, rows)
     tables.write(arguments.out, "training_summary", by, SUMMARY_COLUMNS, summary)

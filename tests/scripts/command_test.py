@@ -19,6 +19,7 @@ from studies import half_by_stage
 from studies import paper_claims
 from studies import published_figures
 from studies import quality_table
+from studies import stability_table
 from runs import simulations
 from runs.scenes import find_scene
 from studies import timing
@@ -233,6 +234,21 @@ class WithTheCommand(InFolder):
         # Two seeds, one of them twice for fewer steps; then seven tunings of two, and no training.
         self.assertEqual(len(list((self.folder / "kept").glob("fittings/*_seed_*"))), 4)
         self.assertEqual(len(list((self.folder / "kept").glob("fittings/*/scene.*"))), 4 + 7)
+
+    def test_whatever_makes_a_table_names_its_program(self):
+        """Release and commit, of the command or of a program beside it."""
+        self.made(binding_check, "--size", "64x36")
+        stability = pathlib.Path(COMMAND).with_name("stability")
+        words = ("--stability", str(stability), "--samples", "1", "--out", str(self.folder))
+        if stability.exists():
+            self.assertEqual(self.ended(stability_table, *words)[0], 0)
+        told = simulations.program_provenance(pathlib.Path(COMMAND))
+        for name in ("binding_check", *(("stability",) if stability.exists() else ())):
+            by = tables.facts_of(self.folder, name)["made"]
+            with self.subTest(name):
+                self.assertTrue(all(told.values()))
+                self.assertEqual(by["releases"], [told["version"]])
+                self.assertEqual(by["commits"], [told["commit"]])
 
     def test_memory_is_as_large_as_needed(self):
         scene = find_scene(str(self.scene))

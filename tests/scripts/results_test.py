@@ -280,7 +280,8 @@ class Pages(InFolder):
         (self.tables / "about.json").write_text(json.dumps({"one": said}))
         for _ in range(2):
             self.write_table("one", Made("x", ("abc",), ("0.2.0",)))
-            self.assertIn(f"\n\nWhat to know.\n\n{said}\n\n", tables.markdown_of(self.tables, "one"))
+            text = tables.markdown_of(self.tables, "one")
+            self.assertIn(f"\n\nWhat to know.\n\n{said}\n\n", text)
             self.assertIn(said, page.html(self.tables))
 
 
@@ -393,7 +394,7 @@ jobs.make("one", sys.argv[1:], here / "made")
             ("abc-dirty", ("--all",), "commit abc-dirty, expected one of committed sources"),
         ):
             with self.subTest(said), mock.patch.object(
-                results.simulations, "program_version", return_value=commit
+                results.simulations, "program_provenance", return_value={"commit": commit}
             ):
                 status, line, _ = self.ended(results, *words)
                 self.assertEqual(status, 2)
