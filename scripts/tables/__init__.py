@@ -75,8 +75,8 @@ class Spread:
 
 @dataclasses.dataclass(frozen=True)
 class Made:
-    """What made a table. program, inputs: digests, of scenes and data sets by name. minutes: of wall
-    time that all tables took which were made with it, where nothing had been kept of them."""
+    """What made a table. program, inputs: digests, of scenes and data sets by name. minutes: of
+    wall time, of all tables that one job makes, its interrupted starts included."""
 
     command: str
     commits: tuple[str, ...]
@@ -202,7 +202,7 @@ def said_by_hand(folder: pathlib.Path) -> dict[str, str]:
 
 
 def join(
-    folder: pathlib.Path, name: str, parts: Sequence[pathlib.Path], minutes: float | None
+    folder: pathlib.Path, name: str, parts: Sequence[pathlib.Path], minutes: float
 ) -> None:
     """Writes the table with the rows of the parts, which are folders that have one of its name.
     Raises ValueError where their columns differ, OSError."""

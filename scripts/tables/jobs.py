@@ -15,19 +15,20 @@ from collections.abc import Sequence
 from typing import IO
 
 import tables
+from runs.files import write_text
 from runs.keeper import Keeper
 from runs.simulations import REFUSED, Failure
 
-BEGUN = "begun"  # in the folder of a call; what is not there was never interrupted
+BEAT_SECONDS = 30  # what is lost of the minutes where this is killed
 
 
 @dataclasses.dataclass(frozen=True)
 class Called:
-    """folder: with tables; none of explore.py. minutes: of wall time; None: it was interrupted, or
-    had kept what it needed."""
+    """folder: with tables; none of explore.py. minutes: of wall time, of all its starts with this
+    program together."""
 
     folder: pathlib.Path | None
-    minutes: float | None
+    minutes: float
 
 
 class Jobs:
@@ -47,40 +48,36 @@ class Jobs:
     def make(self, study: str, calls: Sequence[str], out: pathlib.Path) -> list[str]:
         """Writes the study's tables; returns their names. Raises Failure, ValueError."""
         done = [self.called(study, shlex.split(call)) for call in calls]
-        minutes = [each.minutes for each in done]
-        whole = None if None in minutes else sum(minutes)
+        minutes = sum(each.minutes for each in done)
         folders = [each.folder for each in done if each.folder]
         names = dict.fromkeys(p.stem for f in folders for p in sorted(f.glob("*.csv")))
         for name in names:
             of = [folder for folder in folders if (folder / f"{name}.csv").exists()]
-            tables.join(out, name, of, whole)
+            tables.join(out, name, of, minutes)
         return list(names)
 
     def called(self, study: str, words: Sequence[str]) -> Called:
         script, *more = words
+        clock = self.keeper.place(f"{study} clock", words)
         if script != "results.py":
-            new = not (self.start / more[more.index("--out") + 1]).exists()
-            minutes = self.run([script, *more])
-            return Called(None, minutes if new else None)
+            return Called(None, self.run(words, clock))
 
-        def make(place: pathlib.Path, lock: IO) -> float | None:
-            new = not (place / BEGUN).exists()
-            (place / BEGUN).touch()
+        def make(place: pathlib.Path, lock: IO) -> float:
             own = ["--out", str(place.absolute()), "--kept", str(self.kept.absolute())]
-            minutes = self.run([*words, *own], lock)
-            return minutes if new else None
+            return self.run([*words, *own], clock, lock)
 
         facts = [self.digest, *words, *map(str, self.explored(words))]
-        folder, minutes = self.keeper.kept(study, facts, make)
-        return Called(folder, minutes)
+        return Called(*self.keeper.kept(study, facts, make))
 
     def explored(self, words: Sequence[str]) -> list[pathlib.Path]:
         """Folders that explore.py wrote, which a call names as NAME=FOLDER."""
         places = (self.start / word.partition("=")[2] for word in words if "=" in word)
         return [place for place in places if (place / "explore.json").exists()]
 
-    def run(self, words: Sequence[str], lock: IO | None = None) -> float:
-        """Minutes. What it prints but for progress is in its tables."""
+    def run(self, words: Sequence[str], clock: pathlib.Path, lock: IO | None = None) -> float:
+        """Minutes, with those in the file of the clock. What it prints but for progress is in its
+        tables."""
+        earlier = float(clock.read_text()) if clock.exists() else 0.0
         began = time.monotonic()
         call = subprocess.Popen(
             [sys.executable, "-B", str(self.scripts / words[0]), *words[1:]],
@@ -88,12 +85,19 @@ class Jobs:
             cwd=self.start,
             pass_fds=(lock.fileno(),) if lock else (),
         )
-        try:
-            status = call.wait()
-        except KeyboardInterrupt:
-            call.wait()  # it has heard it as well, and saves what is under way
-            raise
+        status = None
+        while status is None:
+            try:
+                status = call.wait(BEAT_SECONDS)
+            except subprocess.TimeoutExpired:
+                pass
+            except KeyboardInterrupt:
+                call.wait()  # it has heard it as well, and saves what is under way
+                raise
+            finally:
+                minutes = earlier + (time.monotonic() - began) / 60
+                write_text(clock, f"{minutes:.4f}\n")
         if status:
             kind = ValueError if status == REFUSED else Failure
             raise kind(f"{shlex.join(words)}: ended with exit status {status}")
-        return (time.monotonic() - began) / 60
+        return minutes
