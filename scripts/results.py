@@ -26,8 +26,9 @@ import sys
 from collections.abc import Iterator
 from types import ModuleType
 
-from tables import facts_of, markdown_of, page, said_by_hand
+from tables import facts_of, markdown_of, said_by_hand
 from tables.jobs import Jobs
+from reporting import results_page
 from runs import run_arguments, simulations
 from runs.files import write_text
 from runs.scenes import REPOSITORY
@@ -55,7 +56,7 @@ def studies() -> dict[str, str]:
 
 def minutes_of(study: str, folder: pathlib.Path) -> float | None:
     """That its tables took which are there; None: nobody has timed it."""
-    for name in page.names(folder):
+    for name in results_page.names(folder):
         made = facts_of(folder, name)["made"]
         if re.search(rf"\b{study}\b", made["command"]) and made.get("minutes") is not None:
             return made["minutes"]
@@ -100,7 +101,7 @@ def make_all(arguments: argparse.Namespace) -> None:
         if name not in known:
             raise ValueError(f"--all: got {name}, expected some of {', '.join(known)}")
     commit = simulations.program_provenance(simulations.BINARY)["commit"]
-    if page.CHANGED.fullmatch(commit):
+    if results_page.CHANGED.fullmatch(commit):
         raise ValueError(
             f"{simulations.BINARY}: commit {commit}, expected one of committed sources"
         )
@@ -131,7 +132,7 @@ def filled(text: str, folder: pathlib.Path) -> str:
             print(f"{folder / name}.json: not there, its place is left as it is", file=sys.stderr)
             return place.group(0)
         for commit in facts_of(folder, name)["made"]["commits"]:
-            if page.CHANGED.fullmatch(commit):
+            if results_page.CHANGED.fullmatch(commit):
                 raise ValueError(
                     f"{folder / name}.json: commit {commit}, expected one without changes"
                 )
@@ -159,8 +160,8 @@ def fill(arguments: argparse.Namespace) -> None:
 
 def write_pages(tables: pathlib.Path) -> None:
     for path, text in (
-        (tables / page.README, page.readme(tables)),
-        (REPOSITORY / "out" / "results.html", page.html(tables)),
+        (tables / results_page.README, results_page.readme(tables)),
+        (REPOSITORY / "out" / "results.html", results_page.html(tables)),
     ):
         path.parent.mkdir(parents=True, exist_ok=True)
         write_text(path, text)
@@ -170,7 +171,7 @@ def write_pages(tables: pathlib.Path) -> None:
 def out_of_date(tables: pathlib.Path) -> list[str]:
     """READMEs that are not what the tables give."""
     texts = {path: filled(path.read_text(), tables) for path in readmes(REPOSITORY)}
-    texts[tables / page.README] = page.readme(tables)
+    texts[tables / results_page.README] = results_page.readme(tables)
     return [
         f"{path}: not what its tables give, --fill or --pages writes it"
         for path, text in texts.items()
@@ -180,7 +181,7 @@ def out_of_date(tables: pathlib.Path) -> list[str]:
 
 def check(tables: pathlib.Path) -> None:
     """Raises ValueError with all that is wrong."""
-    if faults := [*out_of_date(tables), *page.faults(tables)]:
+    if faults := [*out_of_date(tables), *results_page.faults(tables)]:
         raise ValueError("\n  ".join(faults))
 
 

@@ -16,7 +16,8 @@ from in_folder import REPOSITORY, InFolder  # isort: skip (finds the scripts)
 import results
 import tables
 from exploring import options
-from tables import Column, Made, Spread, page
+from reporting import results_page
+from tables import Column, Made, Spread
 
 BY = Made("scripts/results.py one truck", ("abc",))
 COLUMNS = (
@@ -185,7 +186,7 @@ class Pages(InFolder):
         self.ask(
             columns=["scene", "cycles"], rows={"scene": ["a|b", "c"]}, caveats=["It is small."]
         )
-        text = page.readme(self.tables)
+        text = results_page.readme(self.tables)
         self.assertIn("\n## Which?\n\nThis one.\n\n<!-- rows: one -->\nMade by `x`;", text)
         self.assertIn("| scene | cycles |\n| --- | ---: |\n| a\\|b | 12,345 |\n| c | 6 |\n", text)
         self.assertIn("\nAll rows: [one.csv](one.csv). Made again by `make it`.\n<!-- end -->", text)
@@ -195,7 +196,7 @@ class Pages(InFolder):
     def test_no_number_in_a_finding(self):
         self.ask(finding="It takes 31.2 dB.")
         with self.assertRaisesRegex(ValueError, "Which.: a finding with a number: 31.2"):
-            page.readme(self.tables)
+            results_page.readme(self.tables)
 
     def test_what_does_not_fit_the_table(self):
         for more, said in (
@@ -205,16 +206,16 @@ class Pages(InFolder):
         ):
             self.ask(**more)
             with self.subTest(said), self.assertRaisesRegex(ValueError, said):
-                page.readme(self.tables)
+                results_page.readme(self.tables)
         self.ask()
         tables.save(self.tables, "one", BY, COLUMNS, ROWS * 4)
         with self.assertRaisesRegex(ValueError, "12 rows of one"):
-            page.readme(self.tables)
+            results_page.readme(self.tables)
 
     def test_the_page_of_all(self):
         (self.tables / "one.svg").write_text("<svg/>")
         self.ask(figure="one.svg")
-        text = page.html(self.tables)
+        text = results_page.html(self.tables)
         for part in (
             *("<h3>Which?</h3>", "This one.", "a|b", "12,345", "31.25", "sortable", "What to know."),
             *("against the reference picture", "data:image/svg+xml;base64,PHN2Zy8+", "make it"),
@@ -223,15 +224,15 @@ class Pages(InFolder):
 
     def test_tables_of_several_releases(self):
         self.write_table("two", Made("y", ("abc",), ("0.2.0",)))
-        self.assertEqual(page.faults(self.tables), [])
+        self.assertEqual(results_page.faults(self.tables), [])
         for by in (Made("y", ("abc",), ("0.1.0",)), Made("y", ("d",), ("0.2.0",))):
             self.write_table("two", by)
             with self.subTest(by):
-                first, *named = page.faults(self.tables)
+                first, *named = results_page.faults(self.tables)
                 self.assertEqual(first, "tables of 2 programs, expected one")
                 self.assertIn("0.2.0, abc: one", named)
         self.write_table("two", Made("y", ("abc", "d"), ("0.2.0",)))
-        self.assertIn("0.2.0, d: two", page.faults(self.tables))
+        self.assertIn("0.2.0, d: two", results_page.faults(self.tables))
 
     def test_tables_that_nobody_can_make_again(self):
         """Also where all are alike in it."""
@@ -243,7 +244,7 @@ class Pages(InFolder):
             for name in ("one", "two"):
                 self.write_table(name, by)
             with self.subTest(by):
-                self.assertEqual(page.faults(self.tables), [f"2 {said}: one, two"])
+                self.assertEqual(results_page.faults(self.tables), [f"2 {said}: one, two"])
 
     def test_check_from_the_command_line(self):
         words = ("--check", "--tables", str(self.tables))
@@ -261,7 +262,7 @@ class Pages(InFolder):
     @unittest.expectedFailure
     def test_tables_of_this_repository_are_of_one_program(self):
         """They are not yet. When they are this passes, which unittest reports as a failure."""
-        self.assertEqual(page.faults(results.TABLES), [])
+        self.assertEqual(results_page.faults(results.TABLES), [])
 
     def test_pages_of_this_repository(self):
         with contextlib.redirect_stderr(io.StringIO()):
@@ -282,7 +283,7 @@ class Pages(InFolder):
             self.write_table("one", Made("x", ("abc",), ("0.2.0",)))
             text = tables.markdown_of(self.tables, "one")
             self.assertIn(f"\n\nWhat to know.\n\n{said}\n\n", text)
-            self.assertIn(said, page.html(self.tables))
+            self.assertIn(said, results_page.html(self.tables))
 
 
 class Stated(InFolder):
