@@ -16,7 +16,9 @@ from in_folder import REPOSITORY, InFolder  # isort: skip (finds the scripts)
 import results
 import tables
 from exploring import options
+from exploring.record import SETTING
 from reporting import results_page
+from studies import smallest_machine
 from tables import Column, Made, Spread
 
 BY = Made("scripts/results.py one truck", ("abc",))
@@ -284,6 +286,45 @@ class Pages(InFolder):
             text = tables.markdown_of(self.tables, "one")
             self.assertIn(f"\n\nWhat to know.\n\n{said}\n\n", text)
             self.assertIn(said, results_page.html(self.tables))
+
+
+class Smallest(InFolder):
+    """Of explorations that are made up."""
+
+    HEAD = ("hfus", "mm2", *smallest_machine.SHOWN, "min(fps) >= 90", "slowest view", "front")
+
+    def explored(self, *rows: tuple) -> str:
+        columns = [Column(name, SETTING if name == "hfus" else "") for name in self.HEAD]
+        by = Made("scripts/explore.py truck", ("abc",), ("0.2.0",), "p", {"truck.ply": "1"})
+        tables.save(self.folder / "explored", "explore", by, columns, rows)
+        return f"1280x720={self.folder / 'explored'}"
+
+    START = (8, 6.5, 4, 0.04, 4.9, 9.5, 135, "truck 0", "")
+    BEST = (3, 5, 2.5, 0.02, 3.8, 7.2, 90.8, "yard 1", "yes")
+
+    def test_the_best_stands_beside_the_start(self):
+        words = ("--found", self.explored(self.START, self.BEST), "--out", str(self.folder))
+        status, line, _ = self.ended(smallest_machine, *words)
+        self.assertEqual(status, 0, line)
+        (row,) = tables.read_rows(self.folder, "smallest_machine")
+        self.assertEqual(
+            list(row.values()),
+            ["1280x720", "90.0", "5.0", "3.8", "7.2", "2.5", "20.0", "90.8", "yard 1"]
+            + ["135.0", "6.5", "hfus=3"],
+        )
+        by = tables.facts_of(self.folder, "smallest_machine")["made"]
+        self.assertEqual((by["commits"], by["inputs"]), (["abc"], {"truck.ply": "1"}))
+
+    def test_what_is_none(self):
+        for words, said in (
+            ((), "--found: expected WxH=FOLDER"),
+            (("--found", self.explored(self.START)), "no machine holds what was required"),
+            (("--found", "1x1=nowhere"), "nowhere/explore.json: No such file"),
+        ):
+            with self.subTest(said):
+                status, line, _ = self.ended(smallest_machine, *words, "--out", str(self.folder))
+                self.assertEqual(status, 2)
+                self.assertIn(said, line)
 
 
 class Stated(InFolder):
