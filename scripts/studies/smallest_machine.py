@@ -56,11 +56,12 @@ def required_rate(folder: pathlib.Path, row: Mapping[str, str]) -> str:
 def row_of(size: str, folder: pathlib.Path) -> tuple:
     """Raises ValueError, OSError."""
     rows = tables.read_rows(folder, "explore")
-    best = next((row for row in rows if row["front"] == "yes"), None)
-    if not best:
+    front = [row for row in rows if row["front"] == "yes"]
+    if not front:
         raise ValueError(f"{folder}/explore.csv: no machine holds what was required")
-    if missing := [name for name in ("mm2", *SHOWN) if name not in best]:
+    if missing := [name for name in ("mm2", *SHOWN) if name not in front[0]]:
         raise ValueError(f"{folder}/explore.csv: no column {', '.join(missing)}; --show has it")
+    best = min(front, key=lambda row: float(row["mm2"]))
     rate = required_rate(folder, best)
     columns = tables.facts_of(folder, "explore")["columns"]
     keys = [column["name"] for column in columns if column["meaning"] == SETTING]
