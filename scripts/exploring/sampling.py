@@ -8,8 +8,8 @@ import random
 import warnings
 
 import optuna
-from exploring.record import Work
 from exploring.judging import Judged
+from exploring.record import Work
 from exploring.space import At
 from exploring.study import JUDGED, SAME_AS, Study, locked, open_storage, sampler, unpacked
 from runs.files import content_digest
@@ -111,6 +111,7 @@ def explore(work: Work, program: str) -> None:
         alone=not storage or lock is not None,
     )
     study.join(list(work.space.all()) if study.whole else [work.judge.start(work.space)])
+    taken: set[int] = set()  # trials
     said_of = 0  # configurations
     under_way = 0  # of a search, in the threads of this script: they count as drawn
     of = work.space.size() if study.whole else min(arguments.trials or TRIALS, work.space.size())
@@ -119,8 +120,9 @@ def explore(work: Work, program: str) -> None:
         """What all workers have judged; returns how many of it count."""
         trials = sorted(study.done().values(), key=lambda trial: trial.number)
         for trial in trials:
-            if not is_skipped(trial):
+            if trial.number not in taken and not is_skipped(trial):
                 work.made.add(unpacked(trial.user_attrs[JUDGED]))
+            taken.add(trial.number)
         return sum(study.whole or counts(trial) for trial in trials)
 
     def before() -> bool:

@@ -40,7 +40,7 @@ PATIENCE = 2  # settings in a row that are no better, of what is chosen for one 
 FINALISTS = 3
 
 
-Taken = Callable[[At], float]  # of a machine that there is
+Amount = Callable[[At], float]  # of a machine that there is
 
 
 class NoTime(Exception):
@@ -115,7 +115,7 @@ class Steps:
             moved = self.space.moved(moved, which, step)
         return moved
 
-    def back(self, at: At, which: int, of: Taken) -> tuple[At, float] | None:
+    def back(self, at: At, which: int, of: Amount) -> tuple[At, float] | None:
         """The next one with less on an axis, and about how much that frees of size or share: as
         much as it did for the last one that was alike in structure."""
         alike = [n for axis, n in zip(self.space.axes, at) if axis.name in STRUCTURE]
@@ -280,8 +280,8 @@ class Steps:
                 self.descend(self.stored_better(point))
 
     def allowed_start(self, at: At) -> At | None:
-        """With steps back on all axes but the first, or with as little more of that as is needed,
-        until it is within what is allowed. Where nothing is, the start is judged as it is."""
+        """With steps back on all axes but the first, at the nearest setting of that which allows
+        it, until it is within what is allowed. Where nothing is, the start is judged as it is."""
         settings = range(len(self.space.axes[0].settings))
         for to in sorted(settings, key=lambda n: abs(n - at[0])):
             if fits := self.fitted(self.space.moved(at, 0, to - at[0]), (0,)):

@@ -242,8 +242,10 @@ class WithTheCommand(InFolder):
         words = ("--stability", str(stability), "--samples", "1", "--out", str(self.folder))
         if stability.exists():
             self.assertEqual(self.ended(stability_table, *words)[0], 0)
-        told = simulations.program_provenance(pathlib.Path(COMMAND))
-        for name in ("binding_check", *(("stability",) if stability.exists() else ())):
+        programs = {"binding_check": pathlib.Path(COMMAND)}
+        programs |= {"stability": stability} if stability.exists() else {}
+        for name, program in programs.items():
+            told = simulations.program_provenance(program)
             by = tables.facts_of(self.folder, name)["made"]
             with self.subTest(name):
                 self.assertTrue(all(told.values()))
