@@ -33,7 +33,7 @@ from tables import SCENE, SIZE, VIEW, Column
 from runs import run_arguments
 from runs.front import pareto_front
 from runs.scenes import Scene, find_scenes
-from runs.simulations import Outcome, Run, binders, decibels, numbers, vsu_waits
+from runs.simulations import MB, MJ, Outcome, Run, binders, decibels, numbers, vsu_waits
 from runs.sweep_server import swept
 
 JOBS = (
@@ -82,9 +82,16 @@ SCENES = (
     WAITS,
 )
 SUMMARY = (
-    *(SIZE, MACHINE, MM2, BUS, CYCLES, JOULES, FPS, *DECIBELS, WAITS),
-    Column("least times faster", f"than {BESIDE}, of all views", "", ".2f"),
-    Column("most times faster", f"than {BESIDE}, of all views", "", ".2f"),
+    *(Column("size px", SIZE.meaning, "px"), MACHINE, MM2),
+    Column("bus MB", "on the bus, a frame", "MB", ".1f"),
+    Column("M cycles", "of a frame", "10^6 cycles", ".2f"),
+    Column("mJ", "of a frame", "mJ", ".2f"),
+    Column("fps, worst view", "frames a second of the slowest view", "1/s", ".0f"),
+    Column("PSNR dB, least", DECIBELS[0].meaning, "dB", ".1f"),
+    Column("PSNR dB, most", DECIBELS[1].meaning, "dB", ".1f"),
+    Column("VSU waits for reads, most", WAITS.meaning, "", ".1%"),
+    Column(f"faster than {BESIDE}, least", "its cycles over these, of all views", "", ".2f"),
+    Column(f"faster than {BESIDE}, most", "its cycles over these, of all views", "", ".2f"),
 )
 FRONT = (
     Column("order", "of what it was found for"),
@@ -143,7 +150,8 @@ def summary_row(size: str, machine: str, of: Sequence, beside: Sequence, db: Seq
         for ours, theirs in zip(views, others)
     ]
     return (
-        *(size, machine, max(n[6] for n in found), bus, cycles, joules, min(n[4] for n in found)),
+        *(size, machine, max(n[6] for n in found), bus / MB, cycles / 1e6, joules / MJ),
+        min(n[4] for n in found),
         *(min(db), max(db), max(n[7] for n in found)),
         *((min(faster), max(faster)) if faster else (None, None)),
     )

@@ -416,6 +416,18 @@ jobs.make("one", sys.argv[1:], here / "made")
         self.assertIn("ended with exit status 1", done.stderr)
         self.assertFalse((self.folder / "made").exists())
 
+    def test_questions_name_columns_that_studies_write(self):
+        """So that a table made again can be shown."""
+        written = set()
+        for name in results.studies():
+            study = vars(importlib.import_module(f"studies.{name}"))
+            for value in study.values():
+                if isinstance(value, tuple):
+                    written |= {of.name for of in value if isinstance(of, Column)}
+        for of in results_page.questions(results.TABLES):
+            with self.subTest(of.question):
+                self.assertEqual({*of.columns, *of.rows} - written, set())
+
     def test_every_study_states_one_that_it_takes(self):
         for name in results.studies():
             calls = importlib.import_module(f"studies.{name}").JOBS
