@@ -20,12 +20,14 @@ memory, that size stands, and decides. Tables show what was simulated: values as
 resolved configuration has them, the size of the pixel group always among them: `group=SHAPE` stands
 for both of its sides.
 
-  MEASURE      a number of a view's report.json by its path, such as dram.row_conflicts: the sum
-               over views, or the largest of what an accelerator has (config, sram, area_mm2); or
-               sum(PATH), mean(PATH), min(PATH), max(PATH), p99(PATH) over all views of all scenes;
-               or geomean(PATH), geometric over the scenes, of the means over their views. Names:
-               fps, cycles, seconds, dram_bytes, joules, watts, mm2, mm2_with_phy, psnr_db; sram_bytes;
-               filter_lanes, the multiply-accumulate lanes of coarse and fine filters
+  MEASURE      sum(PATH), mean(PATH), min(PATH), max(PATH), p99(PATH) over all views of all scenes,
+               of a number of a view's report.json by its path, such as dram.row_conflicts; or
+               geomean(PATH), geometric over the scenes, of the means over their views. PATH alone
+               is the largest of what an accelerator has (config, sram, area_mm2), else the sum,
+               shown as sum(PATH). Names of paths: fps, cycles, seconds, dram_bytes, joules, watts,
+               mm2, mm2_high (the upper end of its band), mm2_with_phy, psnr_db; sram_bytes;
+               filter_lanes, the multiply-accumulate lanes of coarse and fine filters; joules_mean is
+               mean(joules)
   --objectives MEASURE,..., each to be small, or large with max: before it. worst(PATH) is the
                largest of what should be small, the smallest of what should be large
   --require    'MEASURE >= BOUND' or 'MEASURE <= BOUND'; each(PATH) is the mean of each scene. BOUND
@@ -33,13 +35,16 @@ for both of its sides.
                + NUMBER or - NUMBER behind it
   --show       MEASURE,..., further columns, by which nothing is judged
 
-Views that took long are drawn first: a configuration that has lost on one of them is drawn on no
-other; one that any frame shows to have lost (area), on none. In a search by Optuna whose objectives
-any frame tells, one that is no better than another that holds is not drawn at all.
+Area is asked before a view is drawn: a configuration that is larger than what is required is drawn
+on none; --search steps draws such ones on its way down from a preset that holds all else. Views
+that took long are drawn first: a configuration that has lost on one of them is drawn on no other.
+In a search by Optuna whose objectives any frame tells, one that is no better than another that
+holds is not judged at all. No other one beats what is on the front in what is to be small, nor,
+where pictures differ by 0.1 dB or more, in PSNR.
 
 Simulations are kept in explore_runs.jsonl: interrupted or started again it goes on where it ended.
 Writes explore.csv, a line for each configuration, explore.json, what its columns mean and what made
-it, and exploration.svg and .png, which show the front beside what was required; filter_units.svg
+it, and exploration.svg and .png, whose axes are what was required; filter_units.svg
 and .png where CFUs and FFU lanes are all that differs. For one objective explore_best.json is the
 best as a configuration, explore_best_SCENE.json where scenes have their own. Of what was
 interrupted or failed midway there are explore_partial.csv and .json.
@@ -61,12 +66,12 @@ import pathlib
 import sys
 from collections.abc import Iterable, Sequence
 
-from results import draw_beside
+from tables import draw_beside
 from exploring import options
 from exploring.axes import ORDERS, Axis, key_of, label, of_scene, sizes_memory
-from exploring.exploration import Exploration, Work
+from exploring.record import Record, Work
 from exploring.judging import SMALL, SMALL_SIZE, Assignments, Judge, Task, relative_to
-from exploring.measures import NAMES, Objective, objective, requirement, shown, value_at
+from exploring.measures import AREA_BAND, NAMES, Objective, objective, requirement, shown
 from exploring.space import Space, parse_axes, read_points
 from exploring.steps import Steps
 from runs import run_arguments
@@ -79,6 +84,7 @@ from runs.simulations import (
     expanded,
     read_config,
     simulate,
+    value_at,
     view_numbers_there,
 )
 from runs.sweep_server import SweepServer
@@ -226,16 +232,16 @@ def explore_all(work: Work) -> None:
         work.made.add_last(work.made.judged[point])
 
 
-def area_band(work: Work, kept: SweepServer) -> str:
-    """What the area of the best may be, by what is known of it; empty where nobody asked for area.
-    Of a run of its own, since what is swept keeps no bands."""
+def area_band(work: Work) -> str:
+    """What the area of the best may be, by what is known of it; empty where nobody asked for area,
+    or for its band."""
     task, best = work.judge.task, work.made.best()
     asked = [*(o.measure for o in task.objectives), *(r.measure for r in task.requirements)]
     if not best or NAMES["mm2"] not in (measure.path for measure in (*asked, *task.shown)):
         return ""
     own = of_scene(best.assignments, label(task.views[0][0].name))
-    views = simulate(kept.binary, task.small_run(own)).views
-    band = value_at(views[0], "area_mm2.bands.total") if views else None
+    views = work.judge.machine(own)
+    band = value_at(views[0], AREA_BAND) if views else None
     if not band:
         return ""
     with_phy = value_at(views[0], "area_mm2.with_memory_interface")
@@ -272,7 +278,7 @@ def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Seque
     task = with_decided(task, arguments.streaminggs, arguments.view, config)
     task = relative_to(task, kept.outcomes)
     judge = Judge(task, kept.outcomes)
-    work = Work(arguments, space, judge, Exploration(task, beside))
+    work = Work(arguments, space, judge, Record(task, beside))
     complete = False
     try:
         for assignments in beside:
@@ -294,7 +300,7 @@ def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Seque
     if not work.made.told():
         why = work.made.not_told() or ["there was no time for any configuration (--minutes)"]
         raise ValueError(why[0].removeprefix("Refused: "))
-    work.made.remarks.append(area_band(work, kept))
+    work.made.remarks.append(area_band(work))
     work.made.write(arguments.out, "explore", arguments.streaminggs)
     for earlier in arguments.out.glob("explore_best*.json"):
         earlier.unlink()
@@ -370,8 +376,8 @@ def main() -> int:
         help="configurations that a search judges or that are refused, at most; default: 200, by "
         "steps as many as it takes. Those of a --study's earlier runs and other workers count; "
         "without one each run counts anew, also what is kept and not simulated again. What is "
-        "--beside, skipped or proposed twice does not count; each other worker of a study may add "
-        "what it has under way",
+        "--beside, too large, skipped or proposed twice does not count; each other worker of a "
+        "study may add what it has under way",
     )
     parser.add_argument("--minutes", type=float, default=0, help="then it ends; 0: no limit")
     parser.add_argument("--seed", type=int, default=1, help="of the sampler")

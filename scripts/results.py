@@ -2,82 +2,123 @@
 """Makes tables of results: a study each, whose table NAME.csv has a row a measurement and NAME.json
 says what its columns mean and what made it; and puts tables into the README.md files.
 
-  results.py --list              names the studies, and minutes that each takes where they are known
+  results.py --list              names the studies, and minutes that each took where they are known
   results.py STUDY --help        what it measures and takes
-  results.py STUDY [ARGUMENTS]   makes its tables
+  results.py STUDY [ARGUMENTS]   makes its tables in out/results, or below --out
+  results.py --all [STUDY...]    makes those in traces/results: the stated job of these, or of all
   results.py --fill [README...]  tables into places in READMEs; all of them without any
   results.py --pages             writes README.md beside the tables, and out/results.html
   results.py --check             says what of these is out of date, and tables of several releases
 
 What was simulated, trained or tuned is kept in a folder: started again, a study goes on where it
-ended, and takes what another one had made.
+ended, and takes what another one had made. A stated job is the JOBS of a study's source. Jobs that
+are done are not done again until program or scripts change; one that fails keeps no other back.
 """
 
 from __future__ import annotations
 
 import argparse
 import ast
-import dataclasses
 import importlib
 import pathlib
 import re
 import sys
 from collections.abc import Iterator
+from types import ModuleType
 
-from results import facts_of, markdown_of, page
-from runs import run_arguments
+from tables import facts_of, markdown_of, said_by_hand
+from tables.jobs import Jobs
+from reporting import results_page
+from runs import run_arguments, simulations
 from runs.files import write_text
 from runs.scenes import REPOSITORY
 
-STUDIES = pathlib.Path(__file__).resolve().parent / "studies"
+SCRIPTS = pathlib.Path(__file__).resolve().parent
+STUDIES = SCRIPTS / "studies"
 TABLES = REPOSITORY / "traces" / "results"
+OUT = REPOSITORY / "out" / "results"
 PLACE = re.compile(r"(<!-- table: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
-# The commit of a program whose sources no commit has.
-CHANGED = re.compile(r"\w+-dirty\b")
 # What builds and runs leave behind.
 NOT_SOURCES = ("build", "out")
 
 
-@dataclasses.dataclass(frozen=True)
-class Study:
-    """about: how what it says of itself begins. minutes: of wall time with its default arguments,
-    its MINUTES; None: nobody has timed it."""
-
-    about: str
-    minutes: int | None
-
-
-def studies() -> dict[str, Study]:
-    """By name; without what they share."""
+def studies() -> dict[str, str]:
+    """How what each says of itself begins, by its name; without what they share."""
     found = {}
     for path in sorted(STUDIES.glob("*.py")):
         source = ast.parse(path.read_text())
         functions = {node.name for node in source.body if isinstance(node, ast.FunctionDef)}
         if {"add_arguments", "make"} <= functions:
             about = " ".join((ast.get_docstring(source) or "").split())
-            minutes = re.search(r"^MINUTES = (\d+)", path.read_text(), re.MULTILINE)
-            found[path.stem] = Study(
-                re.split(r"[.:] ", about)[0], int(minutes.group(1)) if minutes else None
-            )
+            found[path.stem] = re.split(r"[.:] ", about)[0]
     return found
 
 
-def run(name: str, words: list[str]) -> int:
+def minutes_of(study: str, folder: pathlib.Path) -> float | None:
+    """That its tables took which are there; None: nobody has timed it."""
+    for name in results_page.names(folder):
+        made = facts_of(folder, name)["made"]
+        if re.search(rf"\b{study}\b", made["command"]) and made.get("minutes") is not None:
+            return made["minutes"]
+    return None
+
+
+def parser_of(name: str) -> tuple[run_arguments.Parser, ModuleType]:
     study = importlib.import_module(f"studies.{name}")
     parser = run_arguments.Parser(study.__doc__)
     parser.prog += f" {name}"
     study.add_arguments(parser)
     parser.add_argument(
-        "--out", type=pathlib.Path, default=TABLES, metavar="FOLDER", help="for tables"
+        "--out", type=pathlib.Path, default=OUT, metavar="FOLDER", help="for tables"
     )
-    parser.add_argument(
+    add_kept(parser)
+    return parser, study
+
+
+def add_kept(to: argparse.ArgumentParser) -> None:
+    to.add_argument(
         "--kept",
         type=pathlib.Path,
         default=REPOSITORY / "out" / "kept",
         metavar="FOLDER",
         help="for what need not be simulated, trained or tuned again",
     )
-    return run_arguments.main_of_tables(study.make, parser.parse_args(words))
+
+
+def run(name: str, words: list[str]) -> int:
+    parser, study = parser_of(name)
+    arguments = parser.parse_args(words)
+    status = run_arguments.main_of_tables(study.make, arguments)
+    if status == 0 and arguments.out == OUT:
+        print(f"tables are in {OUT.relative_to(REPOSITORY)}", file=sys.stderr)
+    return status
+
+
+def make_all(arguments: argparse.Namespace) -> None:
+    """Into arguments.tables. Raises the first error when all else is made."""
+    known = studies()
+    for name in arguments.all:
+        if name not in known:
+            raise ValueError(f"--all: got {name}, expected some of {', '.join(known)}")
+    commit = simulations.program_provenance(simulations.BINARY)["commit"]
+    if results_page.CHANGED.fullmatch(commit):
+        raise ValueError(
+            f"{simulations.BINARY}: commit {commit}, expected one of committed sources"
+        )
+    jobs = Jobs(simulations.BINARY, SCRIPTS, arguments.kept, REPOSITORY)
+    by_hand = said_by_hand(arguments.tables)
+    errors: list[Exception] = []
+    for name in arguments.all or known:
+        calls = importlib.import_module(f"studies.{name}").JOBS
+        try:
+            for made in jobs.make(name, calls, arguments.tables):
+                check_it = "; about.json speaks of it: check that" if made in by_hand else ""
+                print(f"{arguments.tables / made}.csv, .json{check_it}", flush=True)
+        except (simulations.Failure, ValueError) as error:
+            print(error, file=sys.stderr)
+            errors.append(error)
+    if errors:
+        raise errors[0]
 
 
 def filled(text: str, folder: pathlib.Path) -> str:
@@ -91,7 +132,7 @@ def filled(text: str, folder: pathlib.Path) -> str:
             print(f"{folder / name}.json: not there, its place is left as it is", file=sys.stderr)
             return place.group(0)
         for commit in facts_of(folder, name)["made"]["commits"]:
-            if CHANGED.fullmatch(commit):
+            if results_page.CHANGED.fullmatch(commit):
                 raise ValueError(
                     f"{folder / name}.json: commit {commit}, expected one without changes"
                 )
@@ -119,8 +160,8 @@ def fill(arguments: argparse.Namespace) -> None:
 
 def write_pages(tables: pathlib.Path) -> None:
     for path, text in (
-        (tables / page.README, page.readme(tables)),
-        (REPOSITORY / "out" / "results.html", page.html(tables)),
+        (tables / results_page.README, results_page.readme(tables)),
+        (REPOSITORY / "out" / "results.html", results_page.html(tables)),
     ):
         path.parent.mkdir(parents=True, exist_ok=True)
         write_text(path, text)
@@ -130,7 +171,7 @@ def write_pages(tables: pathlib.Path) -> None:
 def out_of_date(tables: pathlib.Path) -> list[str]:
     """READMEs that are not what the tables give."""
     texts = {path: filled(path.read_text(), tables) for path in readmes(REPOSITORY)}
-    texts[tables / page.README] = page.readme(tables)
+    texts[tables / results_page.README] = results_page.readme(tables)
     return [
         f"{path}: not what its tables give, --fill or --pages writes it"
         for path, text in texts.items()
@@ -140,14 +181,15 @@ def out_of_date(tables: pathlib.Path) -> list[str]:
 
 def check(tables: pathlib.Path) -> None:
     """Raises ValueError with all that is wrong."""
-    if faults := [*out_of_date(tables), *page.faults(tables)]:
+    if faults := [*out_of_date(tables), *results_page.faults(tables)]:
         raise ValueError("\n  ".join(faults))
 
 
-def list_studies() -> int:
-    for name, study in studies().items():
-        minutes = "not timed" if study.minutes is None else f"{study.minutes} min"
-        print(f"{name:22}{minutes:>9}  {study.about}")
+def list_studies(tables: pathlib.Path) -> int:
+    for name, about in studies().items():
+        minutes = minutes_of(name, tables)
+        took = "not timed" if minutes is None else f"{minutes:.0f} min"
+        print(f"{name:22}{took:>9}  {about}")
     return 0
 
 
@@ -160,6 +202,13 @@ def main() -> int:
         "study", nargs="?", choices=studies(), metavar="STUDY", help="one that --list names"
     )
     parser.add_argument("--list", action="store_true", help="name the studies, and their minutes")
+    parser.add_argument(
+        "--all",
+        nargs="*",
+        metavar="STUDY",
+        help="make the tables of --tables, all of them or those of some studies; interrupted and "
+        "started again it goes on",
+    )
     parser.add_argument(
         "--pages", action="store_true", help="write README.md beside the tables and the page of all"
     )
@@ -176,13 +225,16 @@ def main() -> int:
     parser.add_argument(
         "--tables", type=pathlib.Path, default=TABLES, metavar="FOLDER", help="where they lie"
     )
+    add_kept(parser)
     arguments = parser.parse_args()
+    if arguments.all is not None:
+        return run_arguments.main(lambda: make_all(arguments))
     if arguments.fill is not None:
         return run_arguments.main(lambda: fill(arguments))
     if arguments.pages or arguments.check:
         work = write_pages if arguments.pages else check
         return run_arguments.main(lambda: work(arguments.tables))
-    return list_studies()
+    return list_studies(arguments.tables)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """The command from Python, without a build step: `run()` simulates, `load()` reads what lies in a
-folder, both as dictionaries, one a view with the keys of report.json; `numbers()` and `table()`
-make columns of them, `diff()` says where two differ. `sweep()` simulates many configurations, with
-scenes and their pictures prepared once, and makes a table of them.
+folder, both as dictionaries, one a view with the keys of report.json; `table()` makes a data frame
+of them, `diff()` says where two differ. `sweep()` simulates many configurations, with scenes and
+their pictures prepared once, and makes a data frame of them.
 
   import sys; sys.path.insert(0, "scripts")
   import streaminggs
@@ -12,7 +12,8 @@ scenes and their pictures prepared once, and makes a table of them.
   print(small["frame"]["cycles"], large["frame"]["cycles"])
   for key, before, after, change in streaminggs.diff(small, large)[:10]:
       print(f"{key}: {before} -> {after}")
-  streaminggs.table([small, large])[["config.hfus", "frame.cycles", "area_mm2.total"]]  # pandas
+  frame = streaminggs.table([small, large], more=["config"])  # pandas
+  frame[["config.hfus", *streaminggs.COLUMNS["frame"], "binding.holds"]]
   points = streaminggs.grid({"hfus": [2, 4, 8], "hfu.ffu_lanes": [8, 16]})
   streaminggs.sweep(points, ["builtin:object"], fit_memories=True)
 """
@@ -21,6 +22,7 @@ from __future__ import annotations
 
 import importlib.util
 import itertools
+import math
 import os
 import pathlib
 import tempfile
@@ -34,6 +36,46 @@ from reporting.folder import find_runs
 
 Failure = simulations.Failure
 Settings = Mapping[str, object]  # keys of the configuration
+
+# Columns of every data frame, by group, in this order: paths of report.json, which REPORT.md beside
+# the command explains. A machine that has no such number leaves its column empty.
+COLUMNS: dict[str, tuple[str, ...]] = {
+    "scene": ("scene.name", "scene.gaussians", "scene.stored_by", "scene.stored_bytes"),
+    "machine": (
+        *("config.machine", "config.clock_mhz", "config.storage.encoding"),
+        *("config.rendering.precision", "config.dram.memspec", "config.dram.channels"),
+    ),
+    "frame": (
+        *("frame.cycles", "frame.time_s", "frame.fps", "frame.width_px", "frame.height_px"),
+    ),
+    "image": (
+        *("image.psnr_db", "image.ssim", "image.max_abs_error"),
+        *("image.missed", "image.misordered"),
+    ),
+    "bottleneck": (
+        *("binding.unit", "binding.utilisation", "binding.holds", "binding.key", "binding.turn"),
+        *("binding.next", "binding.next_utilisation", "binding.explanation"),
+    ),
+    "dram": (
+        *("dram.bytes", "dram.bus_bytes", "dram.row_hits", "dram.row_misses"),
+        *("dram.row_conflicts", "dram.refreshes", "dram.bandwidth_gb_s", "dram.peak_gb_s"),
+        *("dram.of_peak", "dram.read_latency_mean_ns", "dram.read_latency_p99_ns"),
+    ),
+    "limit": ("limit.bytes_read_once", "limit.ratio"),
+    "energy": (
+        *("energy.total_j", "energy.mean_power_w", "energy.dram_j", "energy.clock_j"),
+        *("energy.logic_leakage_j", "energy.sram_leakage_j"),
+    ),
+    "area": (
+        *("area_mm2.total", "area_mm2.bands.total.low", "area_mm2.bands.total.high"),
+        *("area_mm2.sram", "area_mm2.with_memory_interface.middle"),
+    ),
+    "provenance": (
+        *("provenance.version", "provenance.commit", "provenance.technology"),
+        "host.simulation_wall_s",
+    ),
+}
+PSNR = "image.psnr_db"
 
 
 def run(
@@ -105,11 +147,12 @@ def sweep(
     fit_memories: bool = False,
     jobs: int = os.cpu_count() or 1,
     results: str | pathlib.Path | None = None,
+    more: Sequence[str] = (),
     program: str | pathlib.Path = simulations.BINARY,
 ):
     """Simulates each point on each view of each scene and gives a line for each, in that order: its
-    scene, view and settings, `status` (done, refused or failed), `reason` where it is not done, and
-    the numbers of its report by their paths. A pandas data frame where there is pandas (Debian's
+    scene, view and settings, `status` (done, refused or failed), `reason` where it is not done, then
+    COLUMNS and `more` as of table(). A pandas data frame where there is pandas (Debian's
     python3-pandas), else a list of dictionaries with these columns.
 
     points: settings over `settings`, which are over those of `config`; scenes, views, size,
@@ -123,6 +166,7 @@ def sweep(
         raise ValueError(f"jobs: {jobs}, expected at least 1")
     check_list("points", points)
     check_list("scenes", scenes)
+    check_list("more", more)
     binary = pathlib.Path(program)
     found = [find_scene(str(scene)) for scene in scenes]
     cases = [
@@ -136,17 +180,19 @@ def sweep(
         kept = pathlib.Path(results or f"{folder}/sweep.jsonl")
         with SweepServer(binary, kept, jobs) as server:
             outcomes = server.outcomes([job for _, job in cases])
-    rows = [swept(point, outcome) for (point, _), outcome in zip(cases, outcomes)]
+    rows = [swept(point, outcome, more) for (point, _), outcome in zip(cases, outcomes)]
     return frame(rows) if importlib.util.find_spec("pandas") else rows
 
 
-def swept(point: Settings, outcome: simulations.Outcome) -> dict[str, object]:
+def swept(
+    point: Settings, outcome: simulations.Outcome, more: Sequence[str]
+) -> dict[str, object]:
     """A line of `sweep()`."""
     job = outcome.run
     status = "failed" if outcome.failure else "refused" if outcome.refused else "done"
     line = {"scene": job.scene.name, "view": int(job.view), **point}
     line |= {"status": status, "reason": outcome.refused}
-    return line | {path: n for view in outcome.views for path, n in numbers(view).items()}
+    return line | {path: value for view in outcome.views for path, value in cells(view, more)}
 
 
 def load(folder: str | pathlib.Path) -> list[dict]:
@@ -183,10 +229,22 @@ def numbers(view: dict) -> dict[str, float]:
     }
 
 
-def table(views: Sequence[dict]):
-    """A pandas data frame: a line a view, a column for each leaf of its report. Raises ValueError
-    without pandas."""
-    return frame([dict(leaves(view)) for view in views])
+def cells(view: dict, more: Sequence[str]) -> Iterator[tuple[str, object]]:
+    """(path, value) of COLUMNS, then of every leaf below the paths of `more`. A picture that equals
+    the reference has infinite PSNR."""
+    found = dict(leaves(view))
+    chosen = [path for of_group in COLUMNS.values() for path in of_group]
+    chosen += [path for of in more for path in found if f"{path}.".startswith(f"{of}.")]
+    for path in dict.fromkeys(chosen):
+        equal = path == PSNR and path in found and found[path] is None
+        yield path, math.inf if equal else found.get(path)
+
+
+def table(views: Sequence[dict], more: Sequence[str] = ()):
+    """A pandas data frame: a line a view with COLUMNS. more: paths of whose leaves there are columns
+    as well, such as "config", "units.merge" or "energy". Raises ValueError without pandas."""
+    check_list("more", more)
+    return frame([dict(cells(view, more)) for view in views])
 
 
 def frame(rows: Sequence[dict]):

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import re
 import statistics
 
 from matplotlib.axes import Axes
@@ -25,18 +24,21 @@ from drawing.figure import (
     panels,
     published,
 )
+from tables import REQUIRED, measure_of
 
 # What is drawn across where it is there, and what is drawn up beside what is required.
-ACROSS = ("mm2", "mm2_with_phy", "area_mm2.total", "sram_bytes", "filter_lanes")
-UP = ("cycles", "seconds", "joules", "watts", "dram_bytes", "fps", "psnr_db")
+ACROSS = ("mm2", "mm2_high", "mm2_with_phy", "area_mm2.total", "sram_bytes", "filter_lanes")
+UP = ("cycles", "seconds", "joules", "joules_mean", "watts", "dram_bytes", "fps", "psnr_db")
 # In which a column is drawn, and how many of its own unit that is.
 UNITS = {
     "mm2": ("area, mm²", 1),
+    "mm2_high": ("area at the upper end of its band, mm²", 1),
     "mm2_with_phy": ("area with the memory's PHY and controller, mm²", 1),
     "area_mm2.total": ("area, mm²", 1),
     "cycles": ("M cycles", 1e6),
     "seconds": ("ms", 1e-3),
     "joules": ("mJ", 1e-3),
+    "joules_mean": ("mJ, mean over the views", 1e-3),
     "watts": ("W", 1),
     "dram_bytes": ("MB of DRAM traffic", 1e6),
     "sram_bytes": ("KB of SRAM", 1e3),
@@ -44,8 +46,6 @@ UNITS = {
 }
 MORE_IS_BETTER = ("fps", "psnr_db")
 EQUAL = "equal"
-REQUIRED = re.compile(r"(.+) (>=|<=) ([-+.\de]+)")
-MEASURE = re.compile(r"(?:\w+\()?([\w.]+)\)?")
 
 Point = tuple[float, float]
 
@@ -59,19 +59,16 @@ def lower_left(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
     return front
 
 
-def measure_of(column: str) -> str:
-    """Without aggregate and bound."""
-    required = REQUIRED.fullmatch(column)
-    found = MEASURE.fullmatch(required[1] if required else column)
-    return found[1] if found else column
-
-
 def axes_of(data: Data) -> tuple[str, list[str]]:
-    """The column across, and those that are drawn over it. Raises Missing."""
+    """The column across, and those that are drawn over it: what is required before all else.
+    Raises Missing."""
     head = {column: measure_of(column) for column in data.rows[0]}
-    across = next((c for name in ACROSS for c, of in head.items() if of == name), None)
-    required = [c for c, of in head.items() if REQUIRED.fullmatch(c) and of != head.get(across)]
-    others = [c for name in UP for c, of in head.items() if of == name and c not in required]
+    bounds = [column for column in head if REQUIRED.fullmatch(column)]
+    machine = [c for name in ACROSS for c in (*bounds, *head) if head[c] == name]
+    across = next(iter(machine or bounds[1:]), None)
+    required = [c for c in bounds if c != across]
+    drawn = {head[c] for c in (*required, across) if c}
+    others = [c for name in UP for c, of in head.items() if of == name and of not in drawn]
     ups = required + others[:1]
     if not across or not ups:
         raise Missing(
@@ -146,17 +143,31 @@ def draw_points(axes: Axes, data: Data, across: str, up: str) -> None:
                 label = None
 
 
+LOST = {"facecolor": "#f1f2f5", "edgecolor": "#c9ced8", "hatch": "///", "lw": 0, "zorder": 0}
+
+
+def reach(name: str, ends: tuple[float, float]) -> tuple[float, Point, Point]:
+    """The bound; the ends of the axis with room for it; and between what it does not hold."""
+    _, relation, bound = REQUIRED.fullmatch(name).groups()
+    value = float(bound) / unit_of(name)[1]
+    room = 0.08 * (ends[1] - ends[0])
+    low, high = min(ends[0], value - room), max(ends[1], value + room)
+    return value, (low, high), ((low, value) if relation == ">=" else (value, high))
+
+
 def draw_required(axes: Axes, name: str) -> None:
     """The bound as a line, and hatched what does not hold."""
-    _, relation, bound = REQUIRED.fullmatch(name).groups()
-    low, high = axes.get_ylim()
-    value = float(bound) / unit_of(name)[1]
-    room = 0.08 * (high - low)
-    low, high = min(low, value - room), max(high, value + room)
-    lost = (low, value) if relation == ">=" else (value, high)
-    axes.axhspan(*lost, facecolor="#f1f2f5", edgecolor="#c9ced8", hatch="///", lw=0, zorder=0)
+    value, ends, lost = reach(name, axes.get_ylim())
+    axes.axhspan(*lost, **LOST)
     published(axes, value, f"required: {name}")
-    axes.set_ylim(low, high)
+    axes.set_ylim(ends)
+
+
+def draw_required_across(axes: Axes, name: str) -> None:
+    value, ends, lost = reach(name, axes.get_xlim())
+    axes.axvspan(*lost, **LOST)
+    published(axes, value, f"required: {name}", vertical=True)
+    axes.set_xlim(ends)
 
 
 def draw_front(axes: Axes, data: Data, across: str, up: str) -> None:
@@ -204,6 +215,8 @@ def exploration(results: Results) -> Made:
             draw_required(axes, up)
         elif up not in MORE_IS_BETTER:
             draw_front(axes, data, across, up)
+        if REQUIRED.fullmatch(across):
+            draw_required_across(axes, across)
         axes.set_xlabel(unit_of(across)[0])
         measured = required[1] if required else unit_of(up)[0]
         axes.set_title(f"{measured} against {unit_of(across)[0].partition(',')[0]}")
@@ -211,7 +224,7 @@ def exploration(results: Results) -> Made:
             equal.draw(axes)
         draw_beside(axes, data, across, up)
     legend_above(figure, all_axes[0], columns=3 if wide else 5)
-    held = "; hatched: what does not hold" if any(map(REQUIRED.fullmatch, ups)) else ""
+    held = "; hatched: what does not hold" if any(map(REQUIRED.fullmatch, (across, *ups))) else ""
     given = any(row.get("beside") for row in everything.rows)
     rings = "; in rings: what was given beside" if given else ""
     return figure, (
@@ -223,9 +236,11 @@ def exploration(results: Results) -> Made:
 def filter_units(results: Results) -> Made:
     """The grid of CFUs and FFU lanes."""
     data = results.table("explore", "explore.py", ())
-    if "cycles" not in data.rows[0]:
-        raise Missing(f"{results.tables / 'explore.csv'} has no column cycles")
-    keys = list(data.rows[0])[: list(data.rows[0]).index("cycles")]
+    head = list(data.rows[0])
+    measured = next((column for column in head if measure_of(column) == "cycles"), None)
+    if not measured:
+        raise Missing(f"{results.tables / 'explore.csv'} has no column of cycles")
+    keys = head[: head.index(measured)]
     varying = [key for key in keys if len(data.different(key)) > 1]
     coarse = [key for key in varying if key.rpartition(".")[2].startswith("cfu")]
     fine = [key for key in varying if key.rpartition(".")[2].startswith("ffu")]
@@ -236,7 +251,7 @@ def filter_units(results: Results) -> Made:
             "--axis hfu.ffu_lanes=4,8,16,32 makes it"
         )
     columns, rows = (sorted(data.different(key), key=number) for key in (coarse[0], fine[0]))
-    cycles = {(row[coarse[0]], row[fine[0]]): number(row["cycles"]) for row in data.rows}
+    cycles = {(row[coarse[0]], row[fine[0]]): number(row[measured]) for row in data.rows}
     slowest = max(cycles.values())
     gains = [
         [slowest / cycles[c, f] if (c, f) in cycles else float("nan") for c in columns]

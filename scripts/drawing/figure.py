@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from reporting.folder import Run, find_runs
-from results import facts_of, made_sentence
+from tables import facts_of, made_sentence
 from runs.files import read_text
 
 
@@ -60,7 +60,7 @@ class Results:
         """Raises Missing; ValueError where the table has not these columns."""
         path = self.tables / f"{name}.csv"
         if not path.exists():
-            raise Missing(f"{path} is not there; scripts/{maker} makes it")
+            raise Missing(f"{path} is not there; scripts/{maker} --out {self.tables} makes it")
         head, *rows = list(csv.reader(read_text(path).splitlines())) or [[]]
         for column in columns:
             if column not in head:

@@ -11,10 +11,10 @@ from collections.abc import Callable, Mapping, Sequence
 
 from exploring.axes import Assignments, Axis, key_of, label, nearest, of_scene, scope_of
 from exploring.axes import sizes_memory
-from exploring.measures import EACH, Measure, Objective, Requirement, value_at
+from exploring.measures import EACH, NAMES, Measure, Objective, Requirement, number_at
 from exploring.space import At, Space
 from runs.scenes import Scene
-from runs.simulations import GROUP, Outcome, Run, shape_of
+from runs.simulations import GROUP, Outcome, Run, shape_of, value_at
 
 Simulate = Callable[[Sequence[Run]], Sequence[Outcome]]  # called from several threads
 View = tuple[Scene, int]
@@ -29,15 +29,16 @@ NOT_DRAWN = "is lost by any frame"
 class Judged:
     """costs: of the objectives, each to be small; values: of the measures that the requirements are
     about, and violations of these, as far as the views that were drawn tell; shown: of what else is
-    to be shown. settings: what was simulated, by key. dropped: why not all views were drawn;
-    refused, failed: what the command said. Nothing but what JSON can hold, since others read it out
-    of a study."""
+    to be shown. psnr_db: of the worst view; NaN: not known. settings: what was simulated, by key.
+    dropped: why not all views were drawn; refused, failed: what the command said. Nothing but what
+    JSON can hold, since others read it out of a study."""
 
     assignments: Assignments
     costs: tuple[float, ...] = ()
     values: tuple[float, ...] = ()
     violations: tuple[float, ...] = ()
     shown: tuple[float, ...] = ()
+    psnr_db: float = math.nan
     settings: dict[str, object] = dataclasses.field(default_factory=dict)
     drawn: int = 0
     slowest: str = ""  # view of those drawn
@@ -239,6 +240,7 @@ class Judge:
             values=tuple(r.value(views) for r in self.task.requirements),
             violations=tuple(r.violation(views) for r in self.task.requirements),
             shown=tuple(measure.of(views) for measure in self.task.shown),
+            psnr_db=worst_psnr_db(views),
             settings=self.settings(views),
             drawn=len(views),
             slowest=f"{slowest['scene_name']} {slowest['view']}",
@@ -275,6 +277,13 @@ class Judge:
             return axis.scope or (label(self.task.views[0][0].name) if memory else "")
 
         return tuple(nearest(axis, config(scope(axis))) for axis in space.axes)
+
+
+def worst_psnr_db(views: Sequence[dict]) -> float:
+    """NaN where a report says nothing of its picture."""
+    if not all("image" in view for view in views):
+        return math.nan
+    return min(number_at(view, NAMES["psnr_db"]) for view in views)
 
 
 def provenance(view: dict) -> dict[str, str]:

@@ -11,8 +11,9 @@ or large, what it requires and what it shows beside.
   BOUND        NUMBER, or so many times what a preset or file comes to on the same views, and some
                more or less: NUMBER x CONFIG, NUMBER x CONFIG - NUMBER
 
-A PATH alone is the sum over the views, but for what an accelerator has or is (`config`, `sram`,
-`area_mm2`), which is as large for each scene as that scene's storage makes it: the largest counts.
+A PATH alone is the sum over the views, and is shown as `sum(PATH)`, but for what an accelerator has
+or is (`config`, `sram`, `area_mm2`), which is as large for each scene as that scene's storage makes
+it: the largest counts. Rates and ratios (fps, watts, psnr_db) have no sum: an aggregate is needed.
 worst(PATH) in an objective is the largest of what should be small, the smallest of what should be
 large.
 """
@@ -25,7 +26,7 @@ import re
 import statistics
 from collections.abc import Callable, Mapping, Sequence
 
-from runs.simulations import sram_bytes
+from runs.simulations import sram_bytes, value_at
 
 Views = Sequence[dict]
 
@@ -36,6 +37,7 @@ def filter_lanes(view: dict) -> int:
     return view["config"]["hfus"] * (hfu["cfus"] * hfu["cfu_lanes"] + hfu["ffu_lanes"])
 
 
+AREA_BAND = "area_mm2.bands.total"  # low, middle and high, by the sources
 # Names of what is asked for most, and of what no number of the report says.
 NAMES = {
     "fps": "frame.fps",
@@ -45,9 +47,14 @@ NAMES = {
     "joules": "energy.total_j",
     "watts": "energy.mean_power_w",
     "mm2": "area_mm2.total",
+    "mm2_high": f"{AREA_BAND}.high",
     "mm2_with_phy": "area_mm2.with_memory_interface.middle",
     "psnr_db": "image.psnr_db",
 }
+# Names of whole measures: their aggregate and path.
+WHOLE = {"joules_mean": ("mean", NAMES["joules"])}
+# A sum of these says nothing.
+WITHOUT_SUM = ("fps", "watts", "psnr_db")
 COMPUTED: dict[str, Callable[[dict], float]] = {
     "sram_bytes": sram_bytes,
     "filter_lanes": filter_lanes,
@@ -67,13 +74,6 @@ AGGREGATES: dict[str, Callable[[Sequence[float]], float]] = {
     "p99": nearest_rank_99,
 }
 GEOMEAN, EACH, WORST = "geomean", "each", "worst"
-
-
-def value_at(report: object, path: str) -> object:
-    """What the report has at a path; None when there is nothing."""
-    for key in path.split("."):
-        report = report.get(key) if isinstance(report, dict) else None
-    return report
 
 
 def number_at(view: dict, path: str) -> float:
@@ -122,16 +122,24 @@ FORM = re.compile(r"\s*(?:([a-z0-9]+)\(\s*([\w.]+)\s*\)|([\w.]+))\s*")
 
 
 def measure(text: str, more: Mapping[str, str] = {}) -> Measure:
-    """more: aggregates by names that have a meaning only where it stands. Raises ValueError."""
+    """more: aggregates by names that have a meaning only where it stands. Its text says what is
+    taken of the views. Raises ValueError."""
     found = FORM.fullmatch(text)
     if not found:
         raise ValueError(f"'{text.strip()}', expected PATH or AGGREGATE(PATH)")
     aggregate, inner, alone = found.groups()
     path = NAMES.get(inner or alone, inner or alone)
+    if alone in WHOLE:
+        return Measure(alone, *WHOLE[alone])
     if alone:
-        machine = path in COMPUTED or path.partition(".")[0] in OF_THE_MACHINE
-        aggregate = "max" if machine else "sum"
-    elif aggregate in more:
+        if path in COMPUTED or path.partition(".")[0] in OF_THE_MACHINE:
+            return Measure(alone, "max", path)
+        for name in WITHOUT_SUM:
+            if path == NAMES[name]:
+                expected = f"min({alone}), mean({alone}) or max({alone})"
+                raise ValueError(f"'{alone}': its sum over views says nothing, expected {expected}")
+        return Measure(f"sum({alone})", "sum", path)
+    if aggregate in more:
         aggregate = more[aggregate]
     elif aggregate not in AGGREGATES and aggregate != GEOMEAN:
         known = ", ".join([*AGGREGATES, GEOMEAN, *more])
@@ -178,6 +186,16 @@ def shown(text: str) -> tuple[Measure, ...]:
         return tuple(map(measure, text.split(","))) if text else ()
     except ValueError as error:
         raise ValueError(f"--show: {error}") from error
+
+
+# By how a path begins: what misses an upper bound, and what misses a lower one.
+MISSED = {
+    "frame.fps": ("too fast", "too slow"),
+    "frame.": ("too slow", "too fast"),
+    "area_mm2": ("too large", "too small"),
+    "sram": ("too large", "too small"),
+    NAMES["psnr_db"]: ("too good a picture", "too bad a picture"),
+}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -227,6 +245,13 @@ class Requirement:
             return 0
         missed = bound - value if self.least else value - bound
         return missed / abs(bound) if bound and math.isfinite(bound) else missed
+
+    def missed_in_words(self) -> str:
+        """What a configuration is that misses it."""
+        for start, words in MISSED.items():
+            if self.measure.path.startswith(start):
+                return words[self.least]
+        return "too little" if self.least else "too much"
 
     def worst(self, views: Views) -> tuple[float, float]:
         return max(self.pairs(views), key=lambda pair: self.missed(*pair))
@@ -289,13 +314,3 @@ def requirement(text: str) -> Requirement:
         return Requirement(text.strip(), of, relation == ">=", **bound_of(right))
     except ValueError as error:
         raise ValueError(f"--require: {error}") from error
-
-
-def dominates(a: Sequence[float], b: Sequence[float]) -> bool:
-    """a is nowhere worse than b, and somewhere better. Costs, all to be small."""
-    return all(x <= y for x, y in zip(a, b)) and any(x < y for x, y in zip(a, b))
-
-
-def pareto_front(points: Sequence[Sequence[float]]) -> list[bool]:
-    """For each point, whether no other one dominates it."""
-    return [not any(dominates(other, point) for other in points) for point in points]

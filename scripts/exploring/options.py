@@ -9,11 +9,10 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from exploring.axes import EACH, ORDERS, Assignments, Axis, Order, key_of, scope_of
 from exploring.judging import Task
-from exploring.measures import value_at
 from exploring.space import parse_named
 from runs import run_arguments
 from runs.files import read_json
-from runs.simulations import expanded
+from runs.simulations import expanded, value_at
 
 CONFIG = "exact"
 STEPS = "steps"

@@ -8,12 +8,12 @@ import random
 import warnings
 
 import optuna
-from exploring.exploration import Work
-from exploring.judging import NOT_DRAWN, Judged
-from exploring.measures import dominates
+from exploring.judging import Judged
+from exploring.record import Work
 from exploring.space import At
 from exploring.study import JUDGED, SAME_AS, Study, locked, open_storage, sampler, unpacked
 from runs.files import content_digest
+from runs.front import dominates
 from runs.simulations import Run, named_files
 
 SAMPLED_EVERY = 4  # what the sampler proposes; between them what is next to the best
@@ -42,15 +42,17 @@ class Searcher:
         return self.known_costs[at]
 
     def skips(self, at: At) -> str:
-        """Why a configuration need not be drawn; empty where it must be."""
-        if lost := self.judge.lost_by_any_frame(self.space.machine(at)):
-            return f"{lost}: {NOT_DRAWN}"
+        """Why a configuration need not be judged; empty where it must be."""
         if not self.of_the_machine or (costs := self.costs(at)) is None:
             return ""  # judging tells why there is no such machine
-        for best in self.work.made.front():
+        for best in self.work.made.cheapest():
             if best.costs == costs or dominates(best.costs, costs):
                 return "another one that holds is as small"
         return ""
+
+    def is_needless(self, at: At) -> bool:
+        """Whether it would not be drawn: too large, or no smaller than another one that holds."""
+        return bool(self.judge.lost_by_any_frame(self.space.machine(at)) or self.skips(at))
 
     def unseen(self, seen: set[At]) -> At | None:
         """Any that nobody has proposed yet, where there are few enough to look."""
@@ -68,18 +70,18 @@ class Searcher:
         lost = [
             at_of[judged.assignments]
             for judged in self.work.made.told()
-            if not judged.holds() and judged.assignments in at_of
+            if judged.drawn and not judged.holds() and judged.assignments in at_of
         ]
         near = [
             at
-            for best in self.work.made.front()
+            for best in self.work.made.cheapest()
             if best.assignments in at_of
             for at in self.space.neighbours(at_of[best.assignments])
             if at not in seen and not any(is_within(at, other) for other in lost)
         ]
         if not self.of_the_machine:
-            return next((at for at in near if not self.skips(at)), None)
-        saving = [at for at in near if self.costs(at) and not self.skips(at)]
+            return next((at for at in near if not self.is_needless(at)), None)
+        saving = [at for at in near if self.costs(at) and not self.is_needless(at)]
         return min(saving, key=lambda at: self.costs(at), default=None)
 
 
@@ -109,19 +111,19 @@ def explore(work: Work, program: str) -> None:
         alone=not storage or lock is not None,
     )
     study.join(list(work.space.all()) if study.whole else [work.judge.start(work.space)])
+    taken: set[int] = set()  # trials
+    said_of = 0  # configurations
     under_way = 0  # of a search, in the threads of this script: they count as drawn
     of = work.space.size() if study.whole else min(arguments.trials or TRIALS, work.space.size())
 
     def take_in() -> int:
-        """What all workers have judged."""
-        judged = [
-            unpacked(trial.user_attrs[JUDGED])
-            for trial in sorted(study.done().values(), key=lambda trial: trial.number)
-            if not is_skipped(trial)
-        ]
-        for each in judged:
-            work.made.add(each)
-        return len(judged)
+        """What all workers have judged; returns how many of it count."""
+        trials = sorted(study.done().values(), key=lambda trial: trial.number)
+        for trial in trials:
+            if trial.number not in taken and not is_skipped(trial):
+                work.made.add(unpacked(trial.user_attrs[JUDGED]))
+            taken.add(trial.number)
+        return sum(study.whole or counts(trial) for trial in trials)
 
     def before() -> bool:
         """Whether there is more to do; if so what is next may be in the queue, else the sampler
@@ -134,7 +136,7 @@ def explore(work: Work, program: str) -> None:
         with work.reporting:
             trials = study.trials()
             seen = {study.at_of(trial) for trial in trials}
-            drawn = under_way + sum(not is_skipped(trial) for trial in study.done().values())
+            drawn = under_way + sum(map(counts, study.done().values()))
             if drawn >= of or len(seen) >= work.space.size() or len(trials) >= MOST_PROPOSED * of:
                 return False
             under_way += 1
@@ -145,13 +147,13 @@ def explore(work: Work, program: str) -> None:
         return True
 
     def after() -> None:
-        nonlocal under_way
+        nonlocal under_way, said_of
         with work.reporting:
             under_way -= not study.whole
-            before_that = len(work.made.told())
-            done = take_in()
-            if len(work.made.told()) > before_that:
+            before_that, done = said_of, take_in()
+            if done > before_that:
                 work.progress(done, max(of, done))
+                said_of = done
 
     with concurrent.futures.ThreadPoolExecutor(arguments.j) as pool:
         waiting = [pool.submit(study.work, before, after) for _ in range(arguments.j)]
@@ -170,6 +172,12 @@ def is_repeated(trials: list[optuna.trial.FrozenTrial]) -> bool:
 
 def is_skipped(trial: optuna.trial.FrozenTrial) -> bool:
     return "skipped" in trial.user_attrs.get(JUDGED, {"skipped": ""})
+
+
+def counts(trial: optuna.trial.FrozenTrial) -> bool:
+    """Whether it was drawn or refused: what any frame shows to be too large takes no time."""
+    judged = trial.user_attrs.get(JUDGED, {})
+    return any(judged.get(key) for key in ("drawn", "refused", "failed"))
 
 
 def is_within(at: At, other: At) -> bool:

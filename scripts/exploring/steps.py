@@ -13,16 +13,19 @@ views.
 
 Either begins at the preset. Where that misses what is required, it first gets more of what the
 hardest view's binding names, or where that gains nothing, of what gains most for its area.
+
+A machine that is larger than what is required is not drawn, with one exception: on its way to the
+smallest, a search draws those between a preset that holds all else and what is allowed.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from exploring.axes import STRUCTURE, Assignments, label
-from exploring.exploration import Work
+from exploring.record import Work
 from exploring.judging import Drawn, Judged, View
 from exploring.space import At
 
@@ -35,6 +38,9 @@ GIVEN_UP = 0.06  # worse on the views drawn, over their number: others may still
 AT_ONCE = 2  # views side by side
 PATIENCE = 2  # settings in a row that are no better, of what is chosen for one scene
 FINALISTS = 3
+
+
+Amount = Callable[[At], float]  # of a machine that there is
 
 
 class NoTime(Exception):
@@ -57,7 +63,7 @@ class Steps:
         self.of_machines = self.task.of_machines()
         self.of_frames = [r for r in self.task.requirements if r not in self.of_machines]
         self.single = all(r.is_of_single_views() for r in self.of_frames)
-        self.sizes: dict[Assignments, float | None] = {}
+        self.machines: dict[Assignments, tuple[float, float] | None] = {}
         self.backs: dict[tuple, tuple[int, float] | None] = {}
         self.looked: dict[At, int] = {}
         self.harm: dict[int, float] = {}
@@ -81,17 +87,26 @@ class Steps:
 
     # What a machine takes: of what is to be small, or of what is allowed.
 
-    def size(self, at: At) -> float | None:
-        """None: there is no such machine."""
+    def machine(self, at: At) -> tuple[float, float] | None:
+        """What it takes, and how much of what is allowed; None: there is no such machine."""
         machine = self.space.machine(at)
-        if machine not in self.sizes:
+        if machine not in self.machines:
             views = self.judge.machine(machine)
-            if self.task.of_the_machine():
-                self.sizes[machine] = self.objective.cost(views) if views else None
-            else:
-                missed = (r.violation(views) for r in self.of_machines if views)
-                self.sizes[machine] = 1 + max(missed, default=-1) if views else None
-        return self.sizes[machine]
+            self.machines[machine] = self.taken_by(views) if views else None
+        return self.machines[machine]
+
+    def taken_by(self, views: Sequence[dict]) -> tuple[float, float]:
+        share = 1 + max((r.violation(views) for r in self.of_machines), default=-1)
+        return self.objective.cost(views) if self.task.of_the_machine() else share, share
+
+    def size(self, at: At) -> float | None:
+        machine = self.machine(at)
+        return machine and machine[0]
+
+    def share(self, at: At) -> float | None:
+        """More than 1: too large."""
+        machine = self.machine(at)
+        return machine and machine[1]
 
     def neighbour(self, at: At, which: int, step: int) -> At | None:
         """The next one along an axis that there can be."""
@@ -100,14 +115,14 @@ class Steps:
             moved = self.space.moved(moved, which, step)
         return moved
 
-    def back(self, at: At, which: int) -> tuple[At, float] | None:
-        """The next one with less on an axis, and about how much that frees: as much as it did for
-        the last one that was alike in structure."""
+    def back(self, at: At, which: int, of: Amount) -> tuple[At, float] | None:
+        """The next one with less on an axis, and about how much that frees of size or share: as
+        much as it did for the last one that was alike in structure."""
         alike = [n for axis, n in zip(self.space.axes, at) if axis.name in STRUCTURE]
-        key = (which, at[which], *alike)
+        key = (of.__name__, which, at[which], *alike)
         if key not in self.backs:
             back = self.neighbour(at, which, -1)
-            self.backs[key] = back and (back[which], self.size(at) - self.size(back))
+            self.backs[key] = back and (back[which], of(at) - of(back))
         if not (known := self.backs[key]):
             return None
         return self.space.moved(at, which, known[0] - at[which]), known[1]
@@ -189,6 +204,8 @@ class Steps:
             if views and self.room(views) >= 0:
                 return at
             more = views and self.roomier(at, self.hardest(views, watched), views)
+            if views and not more and self.share(at) > 1:
+                more = self.fitted(at, ())
             if not more:
                 self.work.made.remarks.append(
                     f"One step on any axis gains less than {math.expm1(LEAST_GAIN):.1%} of what is "
@@ -202,8 +219,11 @@ class Steps:
         gains nothing, on the one that gains most for what it takes."""
         worst = min(views, key=lambda view: self.room([view]))
         room = self.room([worst] if len(hardest) == 1 else views)
-        names = [axis.name for axis in self.space.axes]
-        ahead = {name: more for n, name in enumerate(names) if (more := self.neighbour(at, n, 1))}
+        ahead = {
+            axis.name: more
+            for n, axis in enumerate(self.space.axes)
+            if (more := self.allowed_ahead(at, n))
+        }
         key = worst["binding"].get("key", "")
         for tried in ([key] if key in ahead else [], [name for name in ahead if name != key]):
             worth = {}
@@ -216,6 +236,14 @@ class Steps:
                 return ahead[max(worth, key=lambda name: worth[name])]
         return None
 
+    def allowed_ahead(self, at: At, which: int) -> At | None:
+        """The next one along an axis that is not too large: where cycles are to be small others
+        make room for it."""
+        more = self.neighbour(at, which, 1)
+        if more and not self.task.of_the_machine():
+            return self.fitted(more, (which,))
+        return more if more and self.share(more) <= 1 else None
+
     def shrunk(self, at: At, watched: Sequence[View]) -> At:
         """No step back holds what is required on the views watched."""
         room = self.room(self.look_until_missed(at, watched))
@@ -223,7 +251,7 @@ class Steps:
         worth = {which: math.inf for which in range(len(at))}
         while worth:
             which = max(worth, key=lambda w: worth[w])
-            back = self.back(at, which)
+            back = self.back(at, which, self.size)
             views = self.look_until_missed(back[0], watched) if back and back[1] > 0 else ()
             left = self.room(views) if views else -math.inf
             if left < 0:
@@ -241,6 +269,8 @@ class Steps:
     def best(self, start: At) -> None:
         first = {scene.name: (scene, number) for scene, number in reversed(self.task.views)}
         self.views = list(reversed(first.values()))
+        if not (start := self.allowed_start(start)):
+            return
         for n, view in enumerate(self.look(start, self.views)):
             if stored := self.stored_to_hold(start, n, view):
                 start = stored[0]
@@ -248,6 +278,18 @@ class Steps:
             self.look_back(start)
             if point := self.best_of_first_axis(start):
                 self.descend(self.stored_better(point))
+
+    def allowed_start(self, at: At) -> At | None:
+        """With steps back on all axes but the first, at the nearest setting of that which allows
+        it, until it is within what is allowed. Where nothing is, the start is judged as it is."""
+        settings = range(len(self.space.axes[0].settings))
+        for to in sorted(settings, key=lambda n: abs(n - at[0])):
+            if fits := self.fitted(self.space.moved(at, 0, to - at[0]), (0,)):
+                return fits
+        self.work.made.add(self.judge.judged(self.space.assignments(at)))
+        required = " and ".join(r.text for r in self.of_machines)
+        self.work.made.remarks.append(f"No steps back from the start lead to {required}.")
+        return None
 
     def draw_finalists(self) -> None:
         """The best of those that were looked at, on all views."""
@@ -263,7 +305,7 @@ class Steps:
         few = self.views[:AT_ONCE]
         now = self.look(at, few)
         for which, axis in enumerate(self.space.axes):
-            if not axis.scope and (back := self.back(at, which)):
+            if not axis.scope and (back := self.back(at, which, self.share)):
                 views = self.look(back[0], few)
                 self.harm[which] = self.objective.worse(views, now) if views else math.inf
 
@@ -276,17 +318,18 @@ class Steps:
         # From the start's own outward, so that what is hopeless is given up early.
         for to in sorted(settings, key=lambda n: abs(n - at[0])):
             moved = self.space.moved(at, 0, to - at[0])
-            if fits := self.fitted(moved, 0):
+            if fits := self.fitted(moved, (0,)):
                 worse, point = self.measure(fits, best)
                 best = point if point and (best is None or worse < 0) else best
         return best
 
-    def fitted(self, at: At, raised: int) -> At | None:
-        """With steps back until it is within what is allowed; None where that is not enough."""
-        while (size := self.size(at)) is not None and size > 1:
+    def fitted(self, at: At, raised: Sequence[int]) -> At | None:
+        """With steps back, but on the axes that were raised, until it is within what is allowed;
+        None where that is not enough."""
+        while (size := self.share(at)) is not None and size > 1:
             prices: list[tuple[float, int, At]] = []
             for which in range(len(at)):
-                back = self.back(at, which) if which != raised else None
+                back = None if which in raised else self.back(at, which, self.share)
                 if back and back[1] > 0:
                     harm = max(self.harm.get(which, UNKNOWN_HARM), BETTER)
                     # More than what is needed is worth nothing.
@@ -372,7 +415,7 @@ class Steps:
     def along(self, best: Point, which: int, step: int) -> Point:
         """As far along an axis as it gets better."""
         while moved := self.neighbour(best.at, which, step):
-            fits = self.fitted(moved, which)
+            fits = self.fitted(moved, (which,))
             worse, point = self.taken(fits, best) if fits else (math.inf, None)
             if step < 0 and math.isfinite(worse):
                 self.harm[which] = worse

@@ -12,11 +12,12 @@ import pathlib
 import shlex
 from collections.abc import Callable, Collection, Sequence
 
-from exploring.measures import pareto_front, value_at
 from reporting import tables
 from reporting.charts import details, escaped
 from reporting.folder import Table, flat
 from runs.files import read_text
+from runs.front import pareto_front, pictures_differ, with_pictures
+from runs.simulations import value_at
 
 DONE = "done"
 STATUSES = (DONE, "refused", "failed")
@@ -199,17 +200,18 @@ def binds(points: Sequence[Point]) -> str:
 
 
 # What a machine comes to on one case or on several: work is summed, of the rest the worst counts.
+PICTURE = "PSNR dB"
 MEASURES: dict[str, Callable[[Sequence[Point]], float]] = {
     "cycles": lambda points: total(points, "frame.cycles"),
     "fps": lambda points: min(point.told["frame.fps"] for point in points),
     "mJ": lambda points: 1e3 * total(points, "energy.total_j"),
     "mm2": lambda points: max(point.told["area_mm2.total"] for point in points),
     "mm2 with PHY": lambda points: max(point.told.get(WITH_PHY, math.nan) for point in points),
-    "PSNR dB": lambda points: min(map(psnr_db, points)),
+    PICTURE: lambda points: min(map(psnr_db, points)),
     "DRAM MB": lambda points: sum(point.told.get("dram.bytes", 0) for point in points) / 1e6,
     "SRAM KB": lambda points: max(map(sram_kb, points)),
 }
-COSTS = ("cycles", "mm2", "mJ")  # that the front is of
+COSTS = ("cycles", "mm2", "mJ")  # that the front is of, with the picture where pictures differ
 MOST_REASONS = 200  # of points that were not done
 
 
@@ -249,6 +251,7 @@ def varying(machines: Sequence[Machine]) -> list[str]:
 
 
 def table_of(machines: Sequence[Machine], best: Sequence[bool], name: str) -> Table:
+    pictures = (PICTURE,) if pictures_differ([m.value(PICTURE) for m in machines]) else ()
     keys = varying(machines)
     head = ("point", *keys, *MEASURES, "binds", "front")
     rows = tuple(
@@ -261,7 +264,8 @@ def table_of(machines: Sequence[Machine], best: Sequence[bool], name: str) -> Ta
         )
         for number, (machine, kept) in enumerate(zip(machines, best), start=1)
     )
-    return Table(name, head, rows, labels=tuple(keys) or ("point",), costs=COSTS, opens=True)
+    labels, costs = tuple(keys) or ("point",), (*COSTS, *pictures)
+    return Table(name, head, rows, labels, costs, opens=True)
 
 
 def configurations(machines: Sequence[Machine], table: Table) -> str:
@@ -293,7 +297,8 @@ def configurations(machines: Sequence[Machine], table: Table) -> str:
 
 def section(machines: Sequence[Machine], title: str, most: int) -> str:
     """So many of them: those on the front first, the fastest at the top."""
-    best = pareto_front([[machine.value(cost) for cost in COSTS] for machine in machines])
+    costs = [[machine.value(cost) for cost in COSTS] for machine in machines]
+    best = pareto_front(with_pictures(costs, [machine.value(PICTURE) for machine in machines]))
     order = sorted(
         range(len(machines)), key=lambda at: (not best[at], machines[at].value("cycles"))
     )

@@ -10,12 +10,15 @@ from reporting import charts
 from reporting.charts import escaped, number
 from reporting.costs import KINDS_OF_ENERGY, WAYS, kinds_of_energy, ways_of_bytes
 from reporting.folder import Run, Table, ViewFiles
+from tables import REQUIRED, measure_of
 from reporting.view import mm2_with_phy, quality
 
 MOST_ROWS = 2000  # of a table that are shown
 # Columns that are drawn at first where they are there, the likelier ones first.
-ACROSS = ("area_mm2.total", "mm2", "area_mm2", "sram_bytes", "DRAM MB", "MB a frame", "bus MB")
-UP = ("fps", "frames/s", "cycles", "frame.cycles", "k cycles", "M cycles", "mJ", "PSNR dB")
+ACROSS = ("area_mm2.total", "mm2", "mm2_high", "area_mm2", "sram_bytes", "DRAM MB", "MB a frame")
+ACROSS += ("bus MB",)
+UP = ("fps", "frames/s", "cycles", "frame.cycles", "k cycles", "M cycles", "joules", "mJ")
+UP += ("PSNR dB",)
 # Columns of words that say nothing of what a row is.
 NO_LABELS = ("binding", "binding.unit", "binding.holds", "binds", "key", "status")
 NO_LABELS += ("slowest view", "holds", "front")
@@ -40,11 +43,24 @@ def numeric_columns(table: Table) -> list[int]:
 
 
 def first_choice(table: Table, wanted: Sequence[str], among: Sequence[int], other: int) -> int:
+    """What is required before all else; what names a row only where nothing was measured."""
+    bounds_first = sorted(among, key=lambda at: not REQUIRED.fullmatch(table.head[at]))
     for name in wanted:
-        if name in table.head and table.head.index(name) in among:
-            return table.head.index(name)
-    differ = [at for at in among if at != other and len({row[at] for row in table.rows}) > 1]
-    return (differ or [at for at in among if at != other] or list(among))[0]
+        for at in bounds_first:
+            if measure_of(table.head[at]) == name:
+                return at
+    labels = labels_of(table, among)
+    left = [at for at in bounds_first if at != other] or list(among)
+    measured = [at for at in left if table.head[at] not in labels] or left
+    differ = [at for at in measured if len({row[at] for row in table.rows}) > 1]
+    return (differ or measured)[0]
+
+
+def up_choice(table: Table, among: Sequence[int], across: int) -> int:
+    """A bound of something else than what is drawn across, if there is one."""
+    bounds = [at for at in among if REQUIRED.fullmatch(table.head[at])]
+    other = [at for at in bounds if measure_of(table.head[at]) not in ACROSS]
+    return first_choice(table, (*table.costs[:1], *UP), other or among, across)
 
 
 def labels_of(table: Table, numeric: Sequence[int]) -> Sequence[str]:
@@ -95,7 +111,7 @@ def diagram(table: Table, name: str) -> str:
         return ""
     across = first_choice(table, (*table.costs[1:2], *ACROSS), numeric, -1)
     ups = [at for at in numeric if at != across]
-    up = first_choice(table, (*table.costs[:1], *UP), ups, across)
+    up = up_choice(table, ups, across)
     best = table.head.index("front") if "front" in table.head else None
     facts = {
         "names": [table.head[at] for at in numeric],

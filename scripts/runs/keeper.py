@@ -20,7 +20,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import IO
 
 from runs.files import content_digest, program_digest, write_text
-from runs.simulations import MOST_SIDE_BY_SIDE, REFUSED, Failure, program_version, said
+from runs.simulations import MOST_SIDE_BY_SIDE, REFUSED, Failure, program_provenance, said
 
 MOST_OF_LABEL = 100  # that stands in the name of a folder
 DONE = "made.json"  # written last: a folder that has it is whole
@@ -129,7 +129,7 @@ class KeptFittings:
     def __init__(self, binary: pathlib.Path, folder: pathlib.Path, side_by_side: int):
         self.binary, self.keeper = binary, Keeper(binary, folder)
         self.workers = max(1, min(MOST_SIDE_BY_SIDE, side_by_side))
-        self.commit = program_version(binary)
+        self.provenance = program_provenance(binary)
         self.calls: set[subprocess.Popen] = set()
         self.lock = threading.Lock()
 

@@ -10,11 +10,13 @@ import pathlib
 import sys
 import tempfile
 
-import results
-from results import SCENE, VIEW, Column
+import tables
+from tables import SCENE, VIEW, Column
 from runs import run_arguments
 from runs.scenes import Scene, find_scenes, shared_names
-from runs.simulations import Run, answered, program_version
+from runs.simulations import Run, answered, program_provenance
+
+JOBS = ("results.py binding_check",)
 
 COLUMNS = (
     SCENE,
@@ -74,8 +76,7 @@ def make(arguments: argparse.Namespace) -> None:
             rows = [row for each in waiting for row in each.result()]
         finally:
             pool.shutdown(cancel_futures=True)
-    provenance = {"commit": program_version(arguments.streaminggs)}
-    by = results.made(arguments.streaminggs, [provenance], scenes)
+    by = tables.made(arguments.streaminggs, [program_provenance(arguments.streaminggs)], scenes)
     right = sum(row[-3] for row in rows)
     about = f"The resource named gains most on {right} of {len(rows)} views."
-    results.write(arguments.out, "binding_check", by, COLUMNS, rows, about)
+    tables.write(arguments.out, "binding_check", by, COLUMNS, rows, about)

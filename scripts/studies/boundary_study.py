@@ -10,11 +10,20 @@ from __future__ import annotations
 
 import argparse
 
-import results
-from results import SCENE, Column
+import tables
+from tables import SCENE, Column
 from runs import run_arguments
 from runs.keeper import Fitted
 from studies import subjects
+
+JOBS = (
+    "results.py boundary_study lego truck --size 400x225 --train-steps 8000 "
+    "--paper-set vsu.visit_gaussians=0",
+    "results.py boundary_study platform yard --size 240x135 "
+    "--paper-set vsu.visit_gaussians=0",
+    "results.py boundary_study truck --size 400x225 --paper-set vsu.visit_gaussians=0 "
+    "--misordered-in pixel --betas 0.5 5 50 500 --voxels 1",
+)
 
 CASE = (
     SCENE,
@@ -102,9 +111,9 @@ def make(arguments: argparse.Namespace) -> None:
                 cases.append((subject.name, factor * preset, factor, beta))
                 fittings.append(calls.boundary(subject, factor * preset, beta))
     fitted = kept.all(fittings)
-    by = results.made(binary, [{"commit": kept.commit}], sources)
+    by = tables.made(binary, [kept.provenance], sources)
     looks, ends = TABLES[arguments.misordered_in]
     rows = [row for case, each in zip(cases, fitted) for row in rows_of(case, each)]
-    results.write(arguments.out, looks, by, COLUMNS, rows)
+    tables.write(arguments.out, looks, by, COLUMNS, rows)
     summary = [summary_row(case, each) for case, each in zip(cases, fitted)]
-    results.write(arguments.out, ends, by, SUMMARY_COLUMNS, summary)
+    tables.write(arguments.out, ends, by, SUMMARY_COLUMNS, summary)

@@ -31,13 +31,13 @@ import math
 import statistics
 from collections.abc import Callable, Mapping, Sequence
 
-import results
-from results import SCENE, SIZE, Column, Made, Spread
+import tables
+from tables import SCENE, SIZE, Column, Made, Spread
 from runs import run_arguments
 from runs.simulations import MB, MJ, Run
 from runs.sweep_server import swept
-from studies import machines
-from studies.machines import (
+from studies import cases
+from studies.cases import (
     Case,
     Entry,
     GPU,
@@ -50,11 +50,12 @@ from studies.machines import (
     sizes_of,
 )
 
+JOBS = ("results.py compare_machines",)
+
 # By scene, the cases of each: what every machine took.
 Found = Mapping[str, Sequence[Mapping[str, Measured]]]
 OfViews = Callable[[Measured], Sequence[float]]
 
-MINUTES = 120  # on two cores
 ALL_SIZES = "all"  # sizes
 PAIR = (
     Column("machine", "preset"),
@@ -335,7 +336,7 @@ class Parts:
         )
         spread = Spread("machine", "{value}", ("scene", "size"))
         name = f"compare_machines_{self.name}"
-        results.write(arguments.out, name, by, columns, rows, about, spread)
+        tables.write(arguments.out, name, by, columns, rows, about, spread)
 
 
 PARTS = (
@@ -409,18 +410,18 @@ def size_groups(of: Sequence[Case], arguments: argparse.Namespace) -> dict[str, 
 
 
 def add_arguments(to: run_arguments.Parser) -> None:
-    machines.add_arguments(to, MACHINES, [4, 8])
+    cases.add_arguments(to, MACHINES, [4, 8])
     run_arguments.add_side_by_side(to)
     run_arguments.add_view(to, "all")
 
 
 def make(arguments: argparse.Namespace) -> None:
-    found = machines.find_cases(arguments)
+    found = cases.find_cases(arguments)
     entries, measured = measure(arguments, found)
-    by = results.made_of(arguments.streaminggs, measured, [case.scene for case in found])
+    by = tables.made_of(arguments.streaminggs, measured, [case.scene for case in found])
 
     def write(name: str, columns: Sequence[Column], rows: list[tuple], about: str = "") -> None:
-        results.write(arguments.out, name, by, columns, rows, about)
+        tables.write(arguments.out, name, by, columns, rows, about)
 
     write("compare_machines", COLUMNS, list(map(row, entries)), ABOUT)
     ratios = ratio_rows(entries, size_groups(found, arguments), arguments.machines)
@@ -434,4 +435,4 @@ def make(arguments: argparse.Namespace) -> None:
         parts.write(arguments, by, entries)
     shown = [e for e in entries if e.machine in (GPU, "gscore")]
     write("characterisation", CHARACTER_COLUMNS, list(map(character_row, shown)))
-    results.draw_beside(arguments.out, *FIGURES)
+    tables.draw_beside(arguments.out, *FIGURES)

@@ -11,8 +11,8 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Sequence
 
-import results
-from results import SCENE, Column, Spread
+import tables
+from tables import SCENE, Column, Spread
 from runs import run_arguments
 from runs.scenes import find_scenes
 from runs.simulations import (
@@ -30,6 +30,8 @@ from runs.simulations import (
     shape_of,
 )
 from runs.sweep_server import swept
+
+JOBS = ("results.py compare_variants truck playbot platform yard garden park",)
 
 VARIANTS = (
     *("paper", "paper_no_vq", "paper_no_cgf", "paper_no_vq_cgf"),
@@ -134,11 +136,11 @@ def make(arguments: argparse.Namespace) -> None:
     by_scene: dict[str, dict[str, Views]] = {}
     for run, of_run in zip(runs, views):
         by_scene.setdefault(run.scene.name, {})[run.config] = of_run
-    by = results.made_of(arguments.streaminggs, (v for of_run in views for v in of_run), scenes)
+    by = tables.made_of(arguments.streaminggs, (v for of_run in views for v in of_run), scenes)
     rows = [row(scene, variant, v) for scene, of in by_scene.items() for variant, v in of.items()]
-    results.write(arguments.out, "compare_variants", by, COLUMNS, rows)
+    tables.write(arguments.out, "compare_variants", by, COLUMNS, rows)
     effects = [line for scene, of in by_scene.items() for line in effect_rows(scene, of)]
     spread = Spread("scene", "{times}")
-    results.write(
+    tables.write(
         arguments.out, "compare_variants_effects", by, EFFECT_COLUMNS, effects, spread=spread
     )

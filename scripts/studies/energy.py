@@ -17,8 +17,8 @@ import argparse
 import math
 from collections.abc import Iterable, Sequence
 
-import results
-from results import PRESET, SCENE, Column, Spread
+import tables
+from tables import PRESET, SCENE, Column, Spread
 from runs import run_arguments
 from runs.scenes import find_scenes, shared_names
 from runs.simulations import (
@@ -34,6 +34,8 @@ from runs.simulations import (
     simulate_all,
 )
 from runs.sweep_server import swept
+
+JOBS = ("results.py energy",)
 
 # Second halves raw in both: codebooks are compare_variants' business.
 PRESETS = ("exact", "paper_no_vq")
@@ -189,7 +191,7 @@ def make(arguments: argparse.Namespace) -> None:
         ]
     )
     grouped = by_case(swept(arguments, "energy", runs))
-    by = results.made_of(arguments.streaminggs, (v for of in shipped.values() for v in of), scenes)
+    by = tables.made_of(arguments.streaminggs, (v for of in shipped.values() for v in of), scenes)
     about = f"View {arguments.view} at {arguments.size} px, {SAME_COST}."
     rows = [
         (preset, name, scene.name, *with_band(view, keys))
@@ -197,10 +199,10 @@ def make(arguments: argparse.Namespace) -> None:
         for name, keys in components(views[0]).items()
         for scene, view in zip(scenes, views)
     ]
-    results.write(
+    tables.write(
         *(arguments.out, "energy_components", by, COMPONENT_COLUMNS, rows, about),
         spread=Spread("scene", "{mJ} ({least mJ} .. {most mJ})"),
     )
     about += " Arithmetic means over the scenes; area and memory of the scene that needs most."
     rows = [group_row(preset, shape, views) for (preset, shape), views in zip(cases, grouped)]
-    results.write(arguments.out, "energy_groups", by, GROUP_COLUMNS, rows, about)
+    tables.write(arguments.out, "energy_groups", by, GROUP_COLUMNS, rows, about)

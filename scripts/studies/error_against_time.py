@@ -24,8 +24,8 @@ import sys
 import tempfile
 from collections.abc import Iterator, Sequence
 
-import results
-from results import SCENE, VIEW, Column
+import tables
+from tables import SCENE, VIEW, Column
 from runs import run_arguments, simulations
 from runs.keeper import Fitted, Fitting, Keeper
 from runs.scenes import Scene, find_scenes
@@ -40,13 +40,20 @@ from runs.simulations import (
     decibels,
     joules,
     mm2,
-    program_version,
+    program_provenance,
     view_numbers_there,
 )
 from runs.sweep_server import swept
 from studies import subjects
 from studies.error_points import PAPER, PRESETS, Point, points
 from studies.subjects import JudgedFrames, Subject, target_pictures
+
+JOBS = (
+    "results.py error_against_time truck yard platform park --diagrams image",
+    "results.py error_against_time truck yard platform park --diagrams tuning "
+    "--train-steps 3000",
+    "results.py error_against_time truck yard platform park --diagrams renderers",
+)
 
 PROGRAM = simulations.BINARY.with_name("bench_renderers")
 LOOKS = 8  # at the test views, while something is tuned or trained
@@ -162,9 +169,9 @@ def make_image(scenes: list[Scene], arguments: argparse.Namespace) -> None:
         raise ValueError("all points are refused")
     order = {scene.name: at for at, scene in enumerate(scenes)}
     rows = sorted((row for row, _ in found), key=lambda cells: order[cells[0]])
-    by = results.made_of(arguments.streaminggs, (view for _, view in found), scenes)
-    results.write(arguments.out, "error_image", by, IMAGE_COLUMNS, rows)
-    results.draw_beside(arguments.out, "error_image")
+    by = tables.made_of(arguments.streaminggs, (view for _, view in found), scenes)
+    tables.write(arguments.out, "error_image", by, IMAGE_COLUMNS, rows)
+    tables.draw_beside(arguments.out, "error_image")
 
 
 def looks_every(steps: int) -> tuple[str, ...]:
@@ -226,9 +233,9 @@ def make_tuning(scenes: list[Scene], arguments: argparse.Namespace) -> None:
     ]
     fitted = kept.all([fitting for _, fitting in asked])
     rows = [row for (facts, _), each in zip(asked, fitted) for row in tuning_rows(each, *facts)]
-    by = results.made(arguments.streaminggs, [{"commit": kept.commit}], [*scenes, *folders])
-    results.write(arguments.out, "error_tuning", by, TUNING_COLUMNS, rows)
-    results.draw_beside(arguments.out, "error_tuning")
+    by = tables.made(arguments.streaminggs, [kept.provenance], [*scenes, *folders])
+    tables.write(arguments.out, "error_tuning", by, TUNING_COLUMNS, rows)
+    tables.draw_beside(arguments.out, "error_tuning")
 
 
 def laid_out(scene: Scene, folder: pathlib.Path) -> str:
@@ -272,10 +279,9 @@ def make_renderers(scenes: list[Scene], arguments: argparse.Namespace) -> None:
                     scene.name, facts, lambda *_: timed(program, scene, words)
                 )
                 rows += found
-    commit = {"commit": program_version(arguments.streaminggs)}
-    by = results.made(program, [commit], scenes)
-    results.write(arguments.out, "error_renderers", by, RENDERER_COLUMNS, rows)
-    results.draw_beside(arguments.out, "error_renderers")
+    by = tables.made(program, [program_provenance(arguments.streaminggs)], scenes)
+    tables.write(arguments.out, "error_renderers", by, RENDERER_COLUMNS, rows)
+    tables.draw_beside(arguments.out, "error_renderers")
 
 
 DIAGRAMS = {"image": make_image, "tuning": make_tuning, "renderers": make_renderers}

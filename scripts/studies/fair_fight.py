@@ -27,14 +27,23 @@ import pathlib
 import statistics
 from collections.abc import Sequence
 
-import results
-from exploring.exploration import SETTING
-from exploring.measures import pareto_front
-from results import SCENE, SIZE, VIEW, Column
+import tables
+from exploring.record import SETTING
+from tables import SCENE, SIZE, VIEW, Column
 from runs import run_arguments
+from runs.front import pareto_front
 from runs.scenes import Scene, find_scenes
-from runs.simulations import Outcome, Run, binders, decibels, numbers, vsu_waits
+from runs.simulations import MB, MJ, Outcome, Run, binders, decibels, numbers, vsu_waits
 from runs.sweep_server import swept
+
+JOBS = (
+    "explore.py park platform yard garden truck playbot --recipe exact_in_area "
+    "--out out/exact",
+    "explore.py park platform yard garden truck playbot --recipe paper_in_area "
+    "--out out/paper",
+    "results.py fair_fight park platform yard garden truck playbot "
+    "--found exact=out/exact paper=out/paper",
+)
 
 PRESETS = ("exact", "paper", "exact_wide")
 BESIDE = "paper"  # whose cycles those of all others are held against
@@ -73,9 +82,16 @@ SCENES = (
     WAITS,
 )
 SUMMARY = (
-    *(SIZE, MACHINE, MM2, BUS, CYCLES, JOULES, FPS, *DECIBELS, WAITS),
-    Column("least times faster", f"than {BESIDE}, of all views", "", ".2f"),
-    Column("most times faster", f"than {BESIDE}, of all views", "", ".2f"),
+    *(Column("size px", SIZE.meaning, "px"), MACHINE, MM2),
+    Column("bus MB", "on the bus, a frame", "MB", ".1f"),
+    Column("M cycles", "of a frame", "10^6 cycles", ".2f"),
+    Column("mJ", "of a frame", "mJ", ".2f"),
+    Column("fps, worst view", "frames a second of the slowest view", "1/s", ".0f"),
+    Column("PSNR dB, least", DECIBELS[0].meaning, "dB", ".1f"),
+    Column("PSNR dB, most", DECIBELS[1].meaning, "dB", ".1f"),
+    Column("VSU waits for reads, most", WAITS.meaning, "", ".1%"),
+    Column(f"faster than {BESIDE}, least", "its cycles over these, of all views", "", ".2f"),
+    Column(f"faster than {BESIDE}, most", "its cycles over these, of all views", "", ".2f"),
 )
 FRONT = (
     Column("order", "of what it was found for"),
@@ -134,7 +150,8 @@ def summary_row(size: str, machine: str, of: Sequence, beside: Sequence, db: Seq
         for ours, theirs in zip(views, others)
     ]
     return (
-        *(size, machine, max(n[6] for n in found), bus, cycles, joules, min(n[4] for n in found)),
+        *(size, machine, max(n[6] for n in found), bus / MB, cycles / 1e6, joules / MJ),
+        min(n[4] for n in found),
         *(min(db), max(db), max(n[7] for n in found)),
         *((min(faster), max(faster)) if faster else (None, None)),
     )
@@ -147,8 +164,8 @@ def in_floats(outcome: Outcome) -> Run:
 
 def tried(order: str, folder: pathlib.Path) -> list[tuple]:
     """What was drawn on all views, without the last column. Raises ValueError, OSError."""
-    rows = results.read_rows(folder, "explore")
-    columns = results.facts_of(folder, "explore")["columns"]
+    rows = tables.read_rows(folder, "explore")
+    columns = tables.facts_of(folder, "explore")["columns"]
     keys = [column["name"] for column in columns if column["meaning"] == SETTING]
     for name in EXPLORED:
         if rows and name not in rows[0]:
@@ -214,12 +231,12 @@ def make(arguments: argparse.Namespace) -> None:
         for key, o in zip(views, outcomes)
     }
     every = [view for of in views.values() for view in of]
-    by = results.made_of(arguments.streaminggs, every, scenes)
+    by = tables.made_of(arguments.streaminggs, every, scenes)
     keys = [(size, s.name, m.name) for size in arguments.sizes for s in scenes for m in machines]
     rows = [view_row(*key, view) for key in keys for view in views[key[0], key[2], key[1]]]
-    results.write(arguments.out, "fair_fight_views", by, VIEWS, rows)
+    tables.write(arguments.out, "fair_fight_views", by, VIEWS, rows)
     rows = [scene_row(*k, views[k[0], k[2], k[1]], db[k[0], k[2], k[1]]) for k in keys]
-    results.write(arguments.out, "fair_fight_scenes", by, SCENES, rows)
+    tables.write(arguments.out, "fair_fight_scenes", by, SCENES, rows)
     rows = []
     for size in arguments.sizes:
         for machine in machines:
@@ -227,7 +244,7 @@ def make(arguments: argparse.Namespace) -> None:
             beside = [views.get((size, f"preset {BESIDE}", s.name), ()) for s in scenes]
             all_db = [value for name in names for value in db[name]]
             rows.append(summary_row(size, machine.name, [views[n] for n in names], beside, all_db))
-    results.write(arguments.out, "fair_fight_summary", by, SUMMARY, rows)
+    tables.write(arguments.out, "fair_fight_summary", by, SUMMARY, rows)
     rows = [(*point, best) for point, best in zip(points, near_front(points))]
     only = {"on the front": "yes"}
-    results.write(arguments.out, "fair_fight_front", by, FRONT, rows, only=only)
+    tables.write(arguments.out, "fair_fight_front", by, FRONT, rows, only=only)

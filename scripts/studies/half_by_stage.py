@@ -6,12 +6,14 @@ from __future__ import annotations
 
 import argparse
 
-import results
-from results import PSNR, SCENE, VIEW, Column, Spread
+import tables
+from tables import PSNR, SCENE, VIEW, Column, Spread
 from runs import run_arguments
 from runs.scenes import find_scenes
 from runs.simulations import Run, decibels
 from runs.sweep_server import swept
+
+JOBS = ("results.py half_by_stage truck platform yard park playbot garden --view 0",)
 
 # Stage: preset, and the keys that put it into half. Records of projected features and depth keys go
 # through memory in the tile-centric machine alone.
@@ -53,7 +55,7 @@ def make(arguments: argparse.Namespace) -> None:
         for stage in STAGES
         for view in next(outcomes).accepted()
     ]
-    by = results.made_of(arguments.streaminggs, (view for _, _, view in found), scenes)
+    by = tables.made_of(arguments.streaminggs, (view for _, _, view in found), scenes)
     rows = [(scene.name, view["view"], stage, decibels(view)) for scene, stage, view in found]
     spread = Spread("stage", "{PSNR dB}")
-    results.write(arguments.out, "half_by_stage", by, COLUMNS, rows, spread=spread)
+    tables.write(arguments.out, "half_by_stage", by, COLUMNS, rows, spread=spread)

@@ -17,14 +17,14 @@ import statistics
 import tempfile
 from collections.abc import Mapping, Sequence
 
-import results
-from results import SCENE, Column, Made
+import tables
+from tables import SCENE, Column, Made
 from runs import run_arguments, simulations
 from runs.files import content_digest, read_json, write_text
 from runs.scenes import REPOSITORY, find_scene
 from runs.simulations import Run
 
-MINUTES = 1
+JOBS = ("results.py headline",)
 
 Pair = tuple[str, str]  # machine, baseline
 Ratios = Mapping[str, tuple[float, float]]  # by scene: speed-up, energy
@@ -149,7 +149,7 @@ def add_arguments(to: run_arguments.Parser) -> None:
 
 
 def make(arguments: argparse.Namespace) -> None:
-    cases, states = (results.read_rows(arguments.tables, name) for name in (CASES, TUNED))
+    cases, states = (tables.read_rows(arguments.tables, name) for name in (CASES, TUNED))
     ratios = {pair: compared(cases, pair) for pair in PICTURES}
     ratios[TUNED_PAIR], of_tuned = tuned(states)
     pictures = {**PICTURES, TUNED_PAIR: of_tuned}
@@ -162,14 +162,14 @@ def make(arguments: argparse.Namespace) -> None:
     by = made_from(arguments, [p for _, provenances in areas.values() for p in provenances])
     first = next(iter(PICTURES))
     text = about(list(ratios[first]), list(ratios[TUNED_PAIR]))
-    results.write(arguments.out, "headline", by, COLUMNS, rows, text)
-    results.write(arguments.out, "headline_scenes", by, SCENE_COLUMNS, scenes, text)
+    tables.write(arguments.out, "headline", by, COLUMNS, rows, text)
+    tables.write(arguments.out, "headline_scenes", by, SCENE_COLUMNS, scenes, text)
 
 
 def made_from(arguments: argparse.Namespace, provenances: Sequence[dict]) -> Made:
     """Of the tables that it is from as well. inputs: their digests."""
-    own = results.made(arguments.streaminggs, provenances)
-    sources = {name: results.facts_of(arguments.tables, name)["made"] for name in (CASES, TUNED)}
+    own = tables.made(arguments.streaminggs, provenances)
+    sources = {name: tables.facts_of(arguments.tables, name)["made"] for name in (CASES, TUNED)}
 
     def all_of(key: str, of_own: Sequence[str]) -> tuple[str, ...]:
         return tuple(sorted({*of_own, *(each for made in sources.values() for each in made[key])}))

@@ -13,12 +13,14 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Mapping, Sequence
 
-import results
-from results import SCENE, Column, Spread
+import tables
+from tables import SCENE, Column, Spread
 from runs import run_arguments
 from runs.scenes import find_scene, find_scenes, shared_names
 from runs.simulations import Run, cycles, decibels, mean, mm2, work
 from runs.sweep_server import swept
+
+JOBS = ("results.py paper_claims truck playbot platform yard garden park",)
 
 REAL_SIZE, SYNTHETIC_SIZE = "980x545", "800x800"
 BUILT_IN = {"builtin:outdoor?n=1000000": REAL_SIZE, "builtin:object?n=300000": SYNTHETIC_SIZE}
@@ -142,6 +144,6 @@ def make(arguments: argparse.Namespace) -> None:
         for (scene, size), views in zip(chosen.items(), found)
         for claim, says, measure in CLAIMS
     ]
-    by = results.made_of(arguments.streaminggs, (v for of in found for v in of["paper"]), chosen)
+    by = tables.made_of(arguments.streaminggs, (v for of in found for v in of["paper"]), chosen)
     spread = Spread("scene", "{measured}")
-    results.write(arguments.out, "paper_claims", by, COLUMNS, rows, spread=spread)
+    tables.write(arguments.out, "paper_claims", by, COLUMNS, rows, spread=spread)

@@ -18,13 +18,15 @@ import argparse
 import statistics
 from collections.abc import Sequence
 
-import results
-from results import SCENE, SIZE, Column, Spread
+import tables
+from tables import SCENE, SIZE, Column, Spread
 from runs import run_arguments
 from runs.scenes import Scene, find_scene, find_scenes, shared_names
 from runs.simulations import MB, Outcome, Run, bus_mb, mean, region_bytes, view_numbers_there
 from runs.sweep_server import swept
-from studies.machines import MODEL, model_all
+from studies.cases import MODEL, model_all
+
+JOBS = ("results.py published_figures",)
 
 BANDWIDTH = ("dram.channels=8",)  # 8 x LPDDR3-1600 x32 are the published 51.2 GB/s
 
@@ -236,11 +238,11 @@ def make(arguments: argparse.Namespace) -> None:
     gpu_runs = [Run(find_scene(spec), "all", size, MODEL) for spec, size, _ in GPU_CASES]
     by_case = model_all(arguments, gpu_runs)
 
-    out, by = arguments.out, results.made_of(arguments.streaminggs, views, used)
+    out, by = arguments.out, tables.made_of(arguments.streaminggs, views, used)
     rows = [row for o in of_bytes for row in bytes_rows(o.run.scene.name, o.views[0])]
-    results.write(out, "published_bytes", by, BYTES_COLUMNS, rows)
+    tables.write(out, "published_bytes", by, BYTES_COLUMNS, rows)
     rows = [rate_row(o, published) for o, (_, _, published) in zip(of_rates, rated)]
-    results.write(out, "published_rates", by, RATES_COLUMNS, rows)
+    tables.write(out, "published_rates", by, RATES_COLUMNS, rows)
     rates = {(s.name, keys): rate(o.views) for (s, _, keys), o in zip(gained, of_gains)}
     rows = [
         (what, published, f"{s.name}, {size}", rates[s.name, more] / rates[s.name, base])
@@ -248,9 +250,9 @@ def make(arguments: argparse.Namespace) -> None:
         for s, size in ablated
     ]
     spread = Spread("scene", "{times}")
-    results.write(out, "published_ablations", by, GAIN_COLUMNS, rows, spread=spread)
+    tables.write(out, "published_ablations", by, GAIN_COLUMNS, rows, spread=spread)
     rows = [row for case, of in zip(GPU_CASES, by_case) for row in gpu_rows(*case, of)]
-    results.write(out, "published_gpu", by, GPU_COLUMNS, rows)
+    tables.write(out, "published_gpu", by, GPU_COLUMNS, rows)
 
 
 def gscore_run(arguments: argparse.Namespace, scene: Scene, size: str, *keys: str) -> Run:

@@ -19,8 +19,8 @@ import argparse
 import dataclasses
 from collections.abc import Sequence
 
-import results
-from results import PRESET, SCENE, Column, Spread
+import tables
+from tables import PRESET, SCENE, Column, Spread
 from runs import run_arguments
 from runs.keeper import Fitting, KeptFittings
 from studies import subjects
@@ -36,6 +36,15 @@ from studies.subjects import (
     frame_cells,
     quality,
     target_pictures,
+)
+
+JOBS = (
+    "results.py quality_table lego truck --size 400x225 --train-steps 8000 --prices 0.03 "
+    "--paper-set vsu.visit_gaussians=0",
+    "results.py quality_table desk --size 240x135 --train-steps 8000 --prices 0.03 "
+    "--downscale 2 --gaussians 50000 --paper-set vsu.visit_gaussians=0",
+    "results.py quality_table platform yard --size 240x135 --prices 0.03 "
+    "--paper-set vsu.visit_gaussians=0",
 )
 
 REFERENCE, STREAMED, BOUNDARY = "reference", "streamed", "boundary-aware"
@@ -183,7 +192,7 @@ def make(arguments: argparse.Namespace) -> None:
         rows += [row for order, of in by_order.items() for row in quality_rows(subject, order, of)]
         if subject.dataset:
             rows += steps_alone_rows(subject, by_order["exact"])
-    by = results.made_of(binary, measured, sources)
+    by = tables.made_of(binary, measured, sources)
     spread = Spread("picture", "{PSNR dB} dB, {SSIM}")
-    results.write(arguments.out, "quality_table", by, COLUMNS, rows, spread=spread)
-    results.write(arguments.out, "quality_machine", by, MACHINE_COLUMNS, machine_rows)
+    tables.write(arguments.out, "quality_table", by, COLUMNS, rows, spread=spread)
+    tables.write(arguments.out, "quality_machine", by, MACHINE_COLUMNS, machine_rows)

@@ -10,9 +10,11 @@ import math
 import pathlib
 from collections.abc import Sequence
 
-import results
-from results import Column
+import tables
+from tables import Column
 from runs import run_arguments, simulations
+
+JOBS = ("results.py stability_table",)
 
 PROGRAM = simulations.BINARY.with_name("stability")
 
@@ -89,13 +91,12 @@ def place_rows(study: dict) -> list[tuple]:
     ]
 
 
-def measured(program: pathlib.Path, samples: int, seed: int) -> dict:
-    """Commit and studies. Raises ValueError when the program refuses or is another one, Failure
+def measured(program: pathlib.Path, samples: int, seed: int) -> list[dict]:
+    """Its studies. Raises ValueError when the program refuses or is another one, Failure
     when it fails."""
     out = simulations.answered(program, f"--samples={samples}", ["--seed", str(seed)], program.name)
     try:
-        answer = json.loads(out)
-        return {"commit": answer["commit"], "studies": answer["studies"]}
+        return json.loads(out)["studies"]
     except (ValueError, KeyError, TypeError) as error:
         raise ValueError(f"{program}: got no studies, expected those of `stability`") from error
 
@@ -109,9 +110,8 @@ def add_arguments(to: run_arguments.Parser) -> None:
 
 
 def make(arguments: argparse.Namespace) -> None:
-    answer = measured(arguments.stability, arguments.samples, arguments.seed)
-    by = results.made(arguments.stability, [answer])
-    studies = answer["studies"]
-    results.write(arguments.out, "stability", by, COLUMNS, map(row_of, studies))
+    studies = measured(arguments.stability, arguments.samples, arguments.seed)
+    by = tables.made(arguments.stability, [simulations.program_provenance(arguments.stability)])
+    tables.write(arguments.out, "stability", by, COLUMNS, map(row_of, studies))
     rows = [row for study in studies for row in place_rows(study)]
-    results.save(arguments.out, "stability_places", by, PLACE_COLUMNS, rows)
+    tables.save(arguments.out, "stability_places", by, PLACE_COLUMNS, rows)

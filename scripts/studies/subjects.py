@@ -16,7 +16,7 @@ import tempfile
 from collections.abc import Sequence
 from typing import IO
 
-from results import Column
+from tables import Column
 from runs import run_arguments
 from runs.keeper import Fitting, Keeper, KeptFittings
 from runs.scenes import Scene, find_scene, shared_folder

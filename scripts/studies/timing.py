@@ -17,12 +17,14 @@ import itertools
 import statistics
 from collections.abc import Sequence
 
-import results
-from results import SCENE, SIZE, Column
+import tables
+from tables import SCENE, SIZE, Column
 from runs import run_arguments
 from runs.simulations import Run, keep_no_codebooks, simulate_all
-from studies import machines
-from studies.machines import Case
+from studies import cases
+from studies.cases import Case
+
+JOBS = ("results.py timing builtin:object builtin:outdoor yard park --repeats 2",)
 
 # NeRArch-Sim (ISCA 2026), of a design point of GSCore.
 PUBLISHED_SECONDS = 47.7
@@ -74,7 +76,7 @@ def point_rows(points: Sequence[Timed]) -> list[tuple]:
 
 
 def add_arguments(to: run_arguments.Parser) -> None:
-    machines.add_arguments(to, ("gscore", "exact"), [4])
+    cases.add_arguments(to, ("gscore", "exact"), [4])
     to.add_argument("--view", type=int, default=0, help="number of a camera")
     to.add_argument("--repeats", type=int, default=3, help="of each; the median counts")
 
@@ -82,7 +84,7 @@ def add_arguments(to: run_arguments.Parser) -> None:
 def make(arguments: argparse.Namespace) -> None:
     run_arguments.check_at_least("--repeats", arguments.repeats, 1)
     arguments.view = str(arguments.view)
-    found = machines.find_cases(arguments)
+    found = cases.find_cases(arguments)
     asked = list(itertools.product(found, arguments.channels, arguments.machines))
     runs = [
         Run(case.scene, arguments.view, case.size, machine, (f"dram.channels={channels}",))
@@ -108,8 +110,8 @@ def make(arguments: argparse.Namespace) -> None:
         gaussians = views[0]["scene"]["gaussians"]
         points.append(timed)
         rows.append((*machine_of, gaussians, simulating, seconds, peak_mb))
-    by = results.made_of(arguments.streaminggs, measured, [case.scene for case in found])
-    results.write(arguments.out, "timing", by, COLUMNS, rows)
-    results.write(
+    by = tables.made_of(arguments.streaminggs, measured, [case.scene for case in found])
+    tables.write(arguments.out, "timing", by, COLUMNS, rows)
+    tables.write(
         arguments.out, "design_point_seconds", by, POINT_COLUMNS, point_rows(points), ABOUT
     )

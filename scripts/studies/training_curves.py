@@ -8,13 +8,18 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 
-import results
-from results import Column
+import tables
+from tables import Column
 from runs import run_arguments
 from runs.files import content_digest
 from runs.keeper import Fitted, Fitting
 from runs.simulations import Failure
 from studies import subjects
+
+JOBS = (
+    "results.py training_curves lego --train-steps 8000 --same-bits 1000",
+    "results.py training_curves desk --train-steps 8000 --seeds 1",
+)
 
 DATASET = Column("data set", "its name")
 SEED = Column("seed", "of the training", "", "d")
@@ -128,6 +133,6 @@ def make(arguments: argparse.Namespace) -> None:
             rows += curve_rows(name, seed, fitted)
             first = seed == arguments.seeds[0]
             summary.append(summary_row(name, seed, fitted, same_bits if first else ""))
-    by = results.made(arguments.streaminggs, [{"commit": kept.commit}], folders.values())
-    results.write(arguments.out, "training_curves", by, COLUMNS, rows)
-    results.write(arguments.out, "training_summary", by, SUMMARY_COLUMNS, summary)
+    by = tables.made(arguments.streaminggs, [kept.provenance], folders.values())
+    tables.write(arguments.out, "training_curves", by, COLUMNS, rows)
+    tables.write(arguments.out, "training_summary", by, SUMMARY_COLUMNS, summary)

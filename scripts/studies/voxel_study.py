@@ -7,11 +7,13 @@ from __future__ import annotations
 
 import argparse
 
-import results
-from results import SCENE, Column
+import tables
+from tables import SCENE, Column
 from runs import run_arguments
 from studies import subjects
 from studies.subjects import FRAME_COLUMNS, JudgedFrames, frame_cells, target_pictures
+
+JOBS = ("results.py voxel_study truck --size 240x135 --paper-set vsu.visit_gaussians=0",)
 
 COLUMNS = (
     SCENE,
@@ -57,6 +59,6 @@ def make(arguments: argparse.Namespace) -> None:
             head = (subject.name, factor, of["voxel_size"], of["voxels"], state)
             rows.append((*head, *frame_cells(views)))
             measured += views
-    by = results.made_of(binary, measured, sources)
-    results.write(arguments.out, "voxel_study", by, COLUMNS, rows)
-    results.draw_beside(arguments.out, "voxel_size")
+    by = tables.made_of(binary, measured, sources)
+    tables.write(arguments.out, "voxel_study", by, COLUMNS, rows)
+    tables.draw_beside(arguments.out, "voxel_size")

@@ -14,8 +14,8 @@ import dataclasses
 import itertools
 import sys
 
-import results
-from results import PSNR, SCENE, VIEW, Column
+import tables
+from tables import PSNR, SCENE, VIEW, Column
 from runs import run_arguments
 from runs.scenes import find_scenes
 from runs.simulations import (
@@ -31,6 +31,8 @@ from runs.simulations import (
     work,
 )
 from runs.sweep_server import swept
+
+JOBS = ("results.py work_precision builtin:outdoor truck",)
 
 MERGE_ENTRIES = (128, 256, 512, 1024, 2048, 4096)
 ON_OVERFLOW = ("spill", "blend_early")
@@ -128,6 +130,6 @@ def make(arguments: argparse.Namespace) -> None:
     found = [(outcome.run.scene.name, view) for outcome in outcomes for view in outcome.views]
     if not found:
         outcomes[0].accepted()
-    by = results.made_of(arguments.streaminggs, (view for _, view in found), scenes)
+    by = tables.made_of(arguments.streaminggs, (view for _, view in found), scenes)
     rows = [row(scene, view) for scene, view in found]
-    results.write(arguments.out, "work_precision", by, COLUMNS, rows)
+    tables.write(arguments.out, "work_precision", by, COLUMNS, rows)

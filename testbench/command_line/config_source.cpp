@@ -5,16 +5,40 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 
 #include "algorithm/files/input_error.h"
 #include "testbench/command_line/presets.h"
 
 namespace sgs {
+namespace {
+
+constexpr std::string_view kGroup = "group=";  // a side in px, or WIDTHxHEIGHT
+
+// The assignments that one of --set stands for. Throws InputError for a group without sides.
+std::vector<std::string> expanded(const std::string& assignment) {
+  if (assignment.rfind(kGroup, 0) != 0) return {assignment};
+  const std::string shape = assignment.substr(kGroup.size());
+  const std::size_t between = shape.find('x');
+  const std::string width = shape.substr(0, between);
+  const std::string height = between == std::string::npos ? width : shape.substr(between + 1);
+  for (const std::string& side : {width, height}) {
+    if (side.empty() || side.find_first_not_of("0123456789") != std::string::npos) {
+      throw InputError(
+          fmt::format("--set group: got '{}', expected px as in 64 or 160x120", shape));
+    }
+  }
+  return {"group_width_px=" + width, "group_height_px=" + height};
+}
+
+}  // namespace
 
 void ConfigSource::add_to(CommandLine& line, const std::string& otherwise) {
   line.file("--config", config,
             fmt::format("JSON file or preset: {}{}", join(preset_names()), otherwise).c_str());
-  line.texts("--set", overrides, "key.path=value, over the configuration; may be repeated");
+  line.texts("--set", overrides,
+             "key.path=value, over the configuration; may be repeated; group=64 or group=160x120 "
+             "are both sides of a pixel group");
 }
 
 void ConfigSource::add_fitting_to(CommandLine& line) {
@@ -48,7 +72,9 @@ ConfigDocument ConfigSource::document() const {
     document.add_file(path());
   }
   const std::string machine = document.text_at("machine");
-  for (const std::string& assignment : overrides) document.add_override(assignment);
+  for (const std::string& assignment : overrides) {
+    for (const std::string& one : expanded(assignment)) document.add_override(one);
+  }
   const std::string other = document.text_at("machine");
   if (is_preset() && other != machine && ConfigSource{other, {}}.is_preset()) {
     throw InputError(fmt::format("--set machine={}: preset {} is of machine {}, take --config {}",

@@ -14,14 +14,15 @@ from studies import compare_variants
 from studies import energy
 from studies import error_against_time
 from studies import fair_fight
-from exploring.measures import value_at
 import explore
-import results
+import tables
 from studies import half_by_stage
 from studies import paper_claims
 from studies import published_figures
 from studies import quality_table
+from studies import stability_table
 from runs import simulations
+from runs.simulations import value_at
 from runs.scenes import find_scene
 from studies import timing
 from studies import training_curves
@@ -87,13 +88,13 @@ class WithTheCommand(InFolder):
             (
                 explore,
                 ("--config", "gscore", "--axis", "cores=1,2"),
-                {"| cores | cycles | dram_bytes | sram_bytes | mm2 |": 1, "\n| 1 |": 1},
+                {"| cores | sum(cycles) | sum(dram_bytes) | sram_bytes | mm2 |": 1, "\n| 1 |": 1},
             ),
             (paper_claims, ("--size", "64x36"), {"| area, mm2 | 5.37 |": 1, "| claim |": 1}),
             (
                 explore,
                 ("--recipe", "smallest", "--require", "min(fps) >= 100000", "--trials", "2"),
-                {"None holds: the nearest misses min(fps) >= 100000 by ": 1},
+                {"too slow (min(fps) >= 100000); the nearest misses min(fps) >= 100000 by ": 1},
             ),
             (
                 explore,
@@ -150,7 +151,7 @@ class WithTheCommand(InFolder):
         for name in names:
             self.assertEqual(made.count(f"| 64x36 | truck | {name} |"), 2, made)
             self.assertEqual(made.count(f"| 64x36 | {name} |"), 1, made)
-        rows = results.read_rows(self.folder, "fair_fight_front")
+        rows = tables.read_rows(self.folder, "fair_fight_front")
         self.assertEqual({row["order"] for row in rows}, {"exact", "paper"})
         self.assertIn("yes", [row["on the front"] for row in rows])
 
@@ -235,6 +236,23 @@ class WithTheCommand(InFolder):
         # Two seeds, one of them twice for fewer steps; then seven tunings of two, and no training.
         self.assertEqual(len(list((self.folder / "kept").glob("fittings/*_seed_*"))), 4)
         self.assertEqual(len(list((self.folder / "kept").glob("fittings/*/scene.*"))), 4 + 7)
+
+    def test_whatever_makes_a_table_names_its_program(self):
+        """Release and commit, of the command or of a program beside it."""
+        self.made(binding_check, "--size", "64x36")
+        stability = pathlib.Path(COMMAND).with_name("stability")
+        words = ("--stability", str(stability), "--samples", "1", "--out", str(self.folder))
+        if stability.exists():
+            self.assertEqual(self.ended(stability_table, *words)[0], 0)
+        programs = {"binding_check": pathlib.Path(COMMAND)}
+        programs |= {"stability": stability} if stability.exists() else {}
+        for name, program in programs.items():
+            told = simulations.program_provenance(program)
+            by = tables.facts_of(self.folder, name)["made"]
+            with self.subTest(name):
+                self.assertTrue(all(told.values()))
+                self.assertEqual(by["releases"], [told["version"]])
+                self.assertEqual(by["commits"], [told["commit"]])
 
     def test_an_exploration_begins_at_the_machine_that_simulate_runs(self):
         """What memories decide there stays when a key changes."""

@@ -10,20 +10,21 @@ import pathlib
 import unittest
 from unittest import mock
 
-from in_folder import RESULTS, InFolder  # isort: skip (finds the scripts)
+from in_folder import InFolder  # isort: skip (finds the scripts)
 import results
-from results import Column, Made
+import tables
+from tables import Column, Made
 from runs.files import content_digest
-from studies import compare_machines, headline, machines, timing
+from studies import compare_machines, headline, timing
 from runs.scenes import Scene
-from studies.machines import Case, sizes_of
+from studies.cases import busiest_of_kernels, busiest_seconds, Case, Entry, GPU, Measured, sizes_of
 
 NAMES = [column.name for column in compare_machines.RATIO_COLUMNS]
 
 
-def measured(*seconds: float, region: float = 0) -> machines.Measured:
+def measured(*seconds: float, region: float = 0) -> Measured:
     """Whose busiest resource works half of the time."""
-    return machines.Measured(
+    return Measured(
         seconds=seconds,
         busiest_seconds=tuple(s / 2 for s in seconds),
         joules=seconds,
@@ -123,7 +124,7 @@ class Machines(unittest.TestCase):
 
     def test_what_is_published_stands_beside_all_sizes_and_says_what_is_derived(self):
         gpu = dataclasses.replace(measured(1, 2), joules=(5, 10), precision="fp32")
-        of_case = {"gscore": measured(1, 1), "paper": measured(1, 1), machines.GPU: gpu}
+        of_case = {"gscore": measured(1, 1), "paper": measured(1, 1), GPU: gpu}
         for own, sizes, speed, joules in (
             ("paper", "all", "45.7", "62.9"),
             ("gscore", "all", "21.6", "27.3 derived"),
@@ -131,7 +132,7 @@ class Machines(unittest.TestCase):
         ):
             with self.subTest(own, sizes=sizes):
                 found = {"s": [of_case]}
-                made = compare_machines.ratio_row(25.6, sizes, found, own, machines.GPU)
+                made = compare_machines.ratio_row(25.6, sizes, found, own, GPU)
                 of = dict(zip(NAMES, made, strict=True))
                 self.assertEqual((of["published speed"], of["published energy"]), (speed, joules))
                 said = "modelled; joules derived: 5 W x its time"
@@ -151,7 +152,7 @@ class Machines(unittest.TestCase):
             for name, (precision, encoding) in kinds.items()
         }
         pairs = compare_machines.pairs_of(of, list(kinds))
-        self.assertEqual(pairs[: len(kinds)], [(name, machines.GPU) for name in kinds])
+        self.assertEqual(pairs[: len(kinds)], [(name, GPU) for name in kinds])
         self.assertEqual(
             pairs[len(kinds) :],
             [
@@ -168,14 +169,14 @@ class Machines(unittest.TestCase):
         case = Case(Scene("s", "a"), "4x2")
         faster = dataclasses.replace(measured(1), peak_gb_s=51.2, binds="dram")
         entries = [
-            machines.Entry(case, name, of)
+            Entry(case, name, of)
             for name, of in (
                 ("gscore_lossless", measured(6, region=3e6)),
                 ("exact", measured(2, 2, region=1e6)),
                 ("exact_fp16", measured(1)),
                 ("gscore_lossless", dataclasses.replace(faster, seconds=(2.5,))),
                 ("exact_fast", faster),
-                (machines.GPU, measured(30)),
+                (GPU, measured(30)),
             )
         ]
         place = ("s", "4x2")
@@ -208,11 +209,11 @@ class Machines(unittest.TestCase):
             entry
             for case, seconds in zip(cases, times)
             for entry in (
-                machines.Entry(case, "gscore", measured(seconds)),
-                machines.Entry(case, "exact", measured(3)),
-                machines.Entry(
+                Entry(case, "gscore", measured(seconds)),
+                Entry(case, "exact", measured(3)),
+                Entry(
                     case,
-                    machines.GPU,
+                    GPU,
                     dataclasses.replace(measured(30), peak_gb_s=102.4),
                 ),
             )
@@ -234,10 +235,10 @@ class Machines(unittest.TestCase):
 
     def test_how_long_the_busiest_works(self):
         view = {"frame": {"time_s": 4e-3}, "binding": {"utilisation": 0.75}}
-        self.assertAlmostEqual(machines.busiest_seconds(view), 3e-3)
+        self.assertAlmostEqual(busiest_seconds(view), 3e-3)
         stages = [("bytes", 2), ("instructions", 4), ("bytes", 3)]
         gpu = {"stages": [{"bound_by": bound, "seconds": s} for bound, s in stages]}
-        self.assertEqual(machines.busiest_of_kernels(gpu), 5)
+        self.assertEqual(busiest_of_kernels(gpu), 5)
         m = dataclasses.replace(measured(1, 3), busiest_seconds=(0.5, 1.5))
         self.assertEqual((m.frames_a_second(), m.most_frames_a_second()), (0.5, 1))
 
@@ -287,7 +288,7 @@ class Headline(InFolder):
 
     def save(self, name, head, rows):
         by = Made("x", (f"of {name}",))
-        results.save(self.folder, name, by, [Column(each, "") for each in head], rows)
+        tables.save(self.folder, name, by, [Column(each, "") for each in head], rows)
 
     def made(self) -> list[dict[str, str]]:
         def area(_, preset: str, technology: pathlib.Path) -> tuple[float, dict]:
@@ -301,7 +302,7 @@ class Headline(InFolder):
             with mock.patch.object(headline, "PICTURES", self.FEW):
                 with contextlib.redirect_stdout(io.StringIO()):
                     headline.make(arguments)
-        return results.read_rows(self.folder, "headline")
+        return tables.read_rows(self.folder, "headline")
 
     def test_each_trained_scene_counts_once(self):
         """Truck 4 and 3, yard 1 and 12; a built-in scene and the other memory do not count."""
@@ -311,7 +312,7 @@ class Headline(InFolder):
         self.assertAlmostEqual(float(first["energy, baseline over machine"]), 6)
         self.assertEqual(first["area ratio"], "1.5")
         self.assertAlmostEqual(float(first["area ratio with PHY and controller"]), 7 / 6)
-        scenes = results.read_rows(self.folder, "headline_scenes")
+        scenes = tables.read_rows(self.folder, "headline_scenes")
         self.assertEqual([row["scene"] for row in scenes], ["truck", "yard", "lego", "desk"])
 
     def test_of_tuned_scenes_only_what_was_tuned_to_codebooks(self):
@@ -323,7 +324,7 @@ class Headline(InFolder):
 
     def test_it_names_the_tables_that_it_is_from(self):
         self.made()
-        made = results.facts_of(self.folder, "headline")["made"]
+        made = tables.facts_of(self.folder, "headline")["made"]
         self.assertEqual(made["commits"], [f"of {headline.CASES}", f"of {headline.TUNED}"])
         self.assertEqual(list(made["inputs"]), [f"{headline.CASES}.csv", f"{headline.TUNED}.csv"])
 
@@ -333,9 +334,9 @@ class Headline(InFolder):
             self.made()
 
     def test_that_of_this_repository_is_from_the_tables_beside_it(self):
-        made = results.facts_of(RESULTS.TABLES, "headline")["made"]
+        made = tables.facts_of(results.TABLES, "headline")["made"]
         for name, digest in made["inputs"].items():
-            self.assertEqual(content_digest(RESULTS.TABLES / name), digest, name)
+            self.assertEqual(content_digest(results.TABLES / name), digest, name)
 
 
 if __name__ == "__main__":

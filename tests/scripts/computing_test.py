@@ -9,17 +9,17 @@ import in_folder  # noqa: F401, isort: skip (finds the scripts)
 from exploring import measures, space
 from exploring.axes import Axis, of_scene
 from studies import binding_check, energy, stability_table, work_precision
-from runs import simulations
+from runs import front, simulations
 from runs.scenes import find_scene, find_scenes
 
 
 class Pareto(unittest.TestCase):
     def test_what_another_beats_everywhere_is_not_on_the_front(self):
         points = [(1, 9), (5, 5), (9, 1), (6, 6), (5, 6)]
-        self.assertEqual(measures.pareto_front(points), [True, True, True, False, False])
+        self.assertEqual(front.pareto_front(points), [True, True, True, False, False])
 
     def test_equal_points_stay_together(self):
-        self.assertEqual(measures.pareto_front([(2, 2), (2, 2), (3, 2)]), [True, True, False])
+        self.assertEqual(front.pareto_front([(2, 2), (2, 2), (3, 2)]), [True, True, False])
 
 
 class Measures(unittest.TestCase):
@@ -57,6 +57,33 @@ class Measures(unittest.TestCase):
             with self.subTest(text):
                 self.assertEqual(measures.objective(text).cost(views), expected)
         self.assertEqual(measures.measure("min(psnr_db)").of(views[:1]), math.inf)
+
+    def test_a_sum_is_named_one(self):
+        views = [self.view(10, 1.5), self.view(40, 1.6)]
+        views = [{**view, "energy": {"total_j": n}} for n, view in enumerate(views, start=1)]
+        for text, name, value in (
+            ("cycles", "sum(cycles)", 50),
+            ("joules", "sum(joules)", 3),
+            ("joules_mean", "joules_mean", 1.5),
+            ("mean(joules)", "mean(joules)", 1.5),
+            ("mm2", "mm2", 1.6),
+            ("sum(cycles)", "sum(cycles)", 50),
+        ):
+            with self.subTest(text):
+                found = measures.measure(text)
+                self.assertEqual((found.text, found.of(views)), (name, value))
+        self.assertEqual(measures.requirement("joules <= 3").name, "sum(joules) <= 3")
+        for text in ("fps", "frame.fps", "psnr_db", "watts"):
+            with self.subTest(text), self.assertRaisesRegex(ValueError, r"expected min\("):
+                measures.measure(text)
+
+    def test_the_upper_end_of_the_area(self):
+        view = self.view(10, 4.1)
+        view["area_mm2"]["bands"] = {"total": {"low": 3.0, "middle": 4.1, "high": 6.2}}
+        required = measures.requirement("mm2_high <= 5")
+        self.assertAlmostEqual(required.violation([view]), 0.24)
+        self.assertTrue(required.measure.is_of_the_machine())
+        self.assertEqual(required.missed_in_words(), "too large")
 
     def test_99_of_100(self):
         views = [self.view(cycles, 1) for cycles in range(1, 201)]

@@ -9,7 +9,7 @@ import subprocess
 import unittest
 from unittest import mock
 
-from in_folder import REPOSITORY, RESULTS, InFolder, file_of, nightly  # isort: skip (finds the scripts)
+from in_folder import REPOSITORY, InFolder, file_of, nightly  # isort: skip (finds the scripts)
 from studies import binding_check
 from studies import boundary_study
 from studies import compare_machines
@@ -17,6 +17,7 @@ from studies import compare_variants
 from studies import energy
 from studies import error_against_time
 import explore
+import results
 from studies import half_by_stage
 from studies import published_figures
 from studies import quality_table
@@ -190,7 +191,7 @@ class Ends(InFolder):
         self.assertIn("report", taking)
         cases = [
             *((name, ("x", "--nope"), "(unrecognized|the following) arg") for name in taking),
-            *(("results", (name, "--nope"), "unrecognized arg") for name in RESULTS.studies()),
+            *(("results", (name, "--nope"), "unrecognized arg") for name in results.studies()),
             ("results", ("x",), "STUDY: invalid choice: 'x'"),
             ("results", ("error_against_time", "--view", "0,x"), "--view: got '0,x', expected num"),
             ("results", ("error_against_time", "--diagrams", "x"), "--diagrams: invalid choice"),
@@ -206,7 +207,7 @@ class Ends(InFolder):
                 words = [f"{name}.py", *arguments]
                 with mock.patch("sys.argv", words), contextlib.redirect_stderr(said):
                     with self.assertRaises(SystemExit) as ended:
-                        (RESULTS if name == "results" else importlib.import_module(name)).main()
+                        (results if name == "results" else importlib.import_module(name)).main()
                 self.assertEqual(ended.exception.code, 2)
                 self.assertRegex(said.getvalue(), rf"\A{name}\.py: {expected}.*\n\Z")
 

@@ -27,7 +27,7 @@ from studies import (
     voxel_study,
 )
 import figures
-import results
+import tables
 
 SCRIPT = REPOSITORY / "scripts" / "figures.py"
 PYTHONS = (sys.executable, str(run_arguments.DEBIAN))
@@ -35,7 +35,7 @@ EXPLORE_HEAD = (
     "hfu.cfus",
     "hfu.ffu_lanes",
     "group",
-    "cycles",
+    "sum(cycles)",
     "mm2",
     "binding",
     "front",
@@ -140,7 +140,7 @@ TABLES = {
                 "hfu.cfus": cfus,
                 "hfu.ffu_lanes": lanes,
                 "group": 96,
-                "cycles": 6400 // (cfus + lanes),
+                "sum(cycles)": 6400 // (cfus + lanes),
             }
             for cfus in (1, 2)
             for lanes in (8, 16)
@@ -151,8 +151,8 @@ TABLES = {
         "explore",
         EXPLORE_HEAD,
         [
-            {"binding": "dram", "front": "yes", "cycles": 100, "mm2": 5},
-            {"binding": "fine", "front": "", "cycles": 200, "mm2": 6},
+            {"binding": "dram", "front": "yes", "sum(cycles)": 100, "mm2": 5},
+            {"binding": "fine", "front": "", "sum(cycles)": 200, "mm2": 6},
         ],
         ("dram binds", "fine binds", "area, mm²", "M cycles against area"),
     ),
@@ -273,9 +273,9 @@ class Figures(InFolder):
 
     def write(self, name: str) -> None:
         table, head, different, _ = TABLES[name]
-        by = results.Made(f"scripts/results.py {table} truck", ("0123abc",))
-        columns = [results.Column(name, "") for name in head]
-        results.save(self.folder, table, by, columns, rows(head, *different))
+        by = tables.Made(f"scripts/results.py {table} truck", ("0123abc",))
+        columns = [tables.Column(name, "") for name in head]
+        tables.save(self.folder, table, by, columns, rows(head, *different))
 
     def svg_text(self, name: str) -> str:
         root = xml.etree.ElementTree.parse(self.folder / "figures" / f"{name}.svg").getroot()
@@ -326,9 +326,9 @@ class Drawn(Figures):
         for others in ((("4", "38.5", "dram", "", ""), ("5", "44", "dram", "yes", "")), ()):
             with self.subTest(others):
                 equal = ("6", "inf", "dram", "yes", "by hand")
-                columns = [results.Column(name, "") for name in head]
-                by = results.Made("scripts/explore.py", ("0123abc",))
-                results.save(self.folder, "explore", by, columns, [*others, equal])
+                columns = [tables.Column(name, "") for name in head]
+                by = tables.Made("scripts/explore.py", ("0123abc",))
+                tables.save(self.folder, "explore", by, columns, [*others, equal])
                 status, _, errors = self.made("exploration")
                 self.assertEqual((status, errors), (0, ""))
                 text = self.svg_text("exploration")

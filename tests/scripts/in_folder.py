@@ -2,7 +2,6 @@
 the command does. $STREAMINGGS names the command; it is empty where there is none."""
 
 import contextlib
-import importlib.util
 import io
 import json
 import math
@@ -24,16 +23,7 @@ COMMAND = os.environ.get("STREAMINGGS", "")
 os.environ["STREAMINGGS_CACHE"] = "off"  # the user's is none of theirs
 
 
-def results_script():
-    """results.py, which as a module has the name of a package."""
-    path = REPOSITORY / "scripts" / "results.py"
-    spec = importlib.util.spec_from_file_location("results", path)
-    script = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(script)
-    return script
-
-
-RESULTS = results_script()
+import results  # isort: skip (found only now)
 
 # Marks a test or a class that takes long. A shorter test enters the same code.
 nightly = unittest.skipUnless(os.environ.get("SGS_NIGHTLY"), "nightly: $SGS_NIGHTLY is not set")
@@ -174,7 +164,7 @@ class InFolder(unittest.TestCase):
         if is_study(script):
             name = script.__name__.removeprefix("studies.")
             words = ["results.py", name, *arguments, "--kept", str(self.folder / "kept")]
-            script = RESULTS
+            script = results
         with mock.patch("sys.argv", words), contextlib.redirect_stdout(out):
             with contextlib.redirect_stderr(said):
                 status = script.main()

@@ -1,6 +1,7 @@
 """streaminggs.py: the command from Python."""
 
 import importlib.util
+import math
 import pathlib
 import sys
 import unittest
@@ -49,6 +50,8 @@ class Reports(unittest.TestCase):
         ):
             with self.subTest(said), self.assertRaisesRegex(ValueError, f"^{said}$"):
                 streaminggs.sweep(points, scenes)
+        with self.assertRaisesRegex(ValueError, "^more: got 'config', expected a list$"):
+            streaminggs.table([], more="config")
         with self.assertRaisesRegex(ValueError, "^hfus: got '24', expected a list$"):
             streaminggs.grid({"hfus": "24"})
 
@@ -128,6 +131,7 @@ class Running(InFolder):
             told = streaminggs.numbers(view)
             for path in ("frame.cycles", "dram.bytes", "area_mm2.total", "energy.total_j"):
                 self.assertEqual(row[path], told[path])
+            self.assertEqual(row["binding.holds"], view["binding"]["holds"])
             self.assertEqual({key: row[key] for key in axes}, point)
             self.assertEqual((row["scene"], row["view"], row["status"]), ("truck", 0, "done"))
         # What the file holds is not simulated again.
@@ -152,6 +156,27 @@ class Running(InFolder):
         ):
             with self.subTest(said), self.assertRaisesRegex(ValueError, said):
                 self.sweep([{"hfus": 2}], **more)
+
+    def test_columns_are_the_same_whatever_was_simulated(self):
+        """Words among them, and none that no report has."""
+        columns = [path for of in streaminggs.COLUMNS.values() for path in of]
+        filled = set()
+        for config in ("exact", "paper", "gscore"):
+            (row,) = self.sweep([{}], config=config)
+            self.assertEqual(list(row), ["scene", "view", "status", "reason", *columns])
+            self.assertEqual(row["config.machine"], config)
+            self.assertEqual(row["config.dram.memspec"], "lpddr3_1600_4gb")
+            self.assertIn("dram", row["binding.explanation"])
+            filled |= {path for path in columns if row[path] not in (None, "")}
+        self.assertEqual(set(columns) - filled, set())
+        (row,) = self.sweep([{}], more=["config.hfu", "units.merge"])
+        self.assertLess(len(columns) + 40, len(row))
+        self.assertEqual(row["config.hfu.cfus"], 4)
+        self.assertNotIn("config.hfus", row)
+
+    def test_an_equal_picture_has_infinite_psnr(self):
+        (row,) = self.sweep([{}], settings={"framebuffer": "rgb32f"})
+        self.assertEqual(row["image.psnr_db"], math.inf)
 
     @unittest.skipUnless(importlib.util.find_spec("pandas"), "pandas is not installed")
     def test_a_data_frame(self):

@@ -2,6 +2,7 @@
 
 import json
 import random
+import re
 import struct
 import unittest
 import zlib
@@ -121,6 +122,21 @@ class Parts(unittest.TestCase):
         self.assertIn("<option value=3 selected>mm2", made)
         self.assertIn("&quot;best&quot;:[true,false]", made)
         self.assertIn("&quot;labels&quot;:[&quot;hfus 2&quot;,&quot;hfus 4&quot;]", made)
+
+    def test_what_is_required_are_the_axes(self):
+        """Not lanes against entries."""
+        for measured in (("min(fps) >= 90", "mm2 <= 5"), ("mm2 <= 5", "min(fps) >= 90")):
+            head = ("hfu.ffu_lanes", "merge.entries", "group", "max(watts)", *measured, "front")
+            rows = ((f"{n}", f"{2 * n}", "64", f"{3 * n}", "91", "4.5", "") for n in (1, 2))
+            made = tables.section(Table("explore", head, tuple(rows)), "explore.csv")
+            with self.subTest(measured):
+                for name in measured:
+                    self.assertRegex(made, f"<option value=. selected>{re.escape(charts.escaped(name))}")
+        head = ("hfu.ffu_lanes", "merge.entries", "group", "max(watts)", "sum(a)", "front")
+        rows = (("1", "2", "64", "3", "4", ""), ("2", "4", "64", "6", "8", ""))
+        made = tables.section(Table("explore", head, rows), "explore.csv")
+        for name in ("max(watts)", "sum(a)"):
+            self.assertRegex(made, rf"<option value=. selected>{re.escape(name)}")
 
 
 if __name__ == "__main__":

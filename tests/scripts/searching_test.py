@@ -6,6 +6,7 @@ import csv
 import io
 import itertools
 import json
+import math
 import pathlib
 import unittest
 
@@ -13,9 +14,9 @@ from in_folder import COMMAND, InFolder, nightly  # isort: skip (finds the scrip
 import explore
 from exploring import options
 from exploring.axes import ORDERS, axis, nearest
-from exploring.exploration import Exploration, Work
+from exploring.record import Record, Work
 from exploring.judging import SMALL, Judge, Judged, Task, relative_to
-from exploring.measures import objective, requirement, value_at
+from exploring.measures import objective, requirement
 from exploring.space import Space, keys_of, parse_axis
 from exploring.steps import Steps
 from runs import simulations
@@ -37,7 +38,11 @@ PRESET |= {"storage.chunk": 16}
 
 
 def settings(run: simulations.Run) -> dict[str, float]:
-    pairs = (override.partition("=") for override in run.overrides)
+    return settings_of(run.overrides)
+
+
+def settings_of(overrides: tuple[str, ...]) -> dict[str, float]:
+    pairs = (override.partition("=") for override in overrides)
     return {**PRESET, **{key: float(value) for key, _, value in pairs}}
 
 
@@ -104,7 +109,7 @@ def searched(
     )
     task = relative_to(task, formulas.outcomes)
     arguments = argparse.Namespace(trials=trials, minutes=0)
-    work = Work(arguments, space, Judge(task, formulas.outcomes), Exploration(task, {}))
+    work = Work(arguments, space, Judge(task, formulas.outcomes), Record(task, {}))
     with contextlib.redirect_stderr(io.StringIO()):
         Steps(work).search()
     return work
@@ -205,8 +210,24 @@ class Within(unittest.TestCase):
         self.assertEqual(work.made.told(), [])
         self.assertRegex(work.made.not_told()[0], "^Refused: a toy .*: cannot be$")
 
+    @staticmethod
+    def searched_for(formulas: Formulas) -> list[float]:
+        """Areas of what was drawn, but for the preset, which tells how scenes are stored."""
+        return [area(settings_of(overrides)) for *_, overrides in formulas.drawn if overrides]
+
     def test_nothing_fits(self):
-        self.assertIsNone(self.found(0.5))
+        formulas = Formulas()
+        work = searched(formulas, "geomean(cycles)", "mm2 <= 0.5")
+        self.assertEqual((work.made.front(), self.searched_for(formulas)), ([], []))
+        self.assertRegex(work.made.about(), r"None of 1 holds: 1 too large \(mm2 <= 0.5\)")
+        self.assertIn("No steps back from the start lead to mm2 <= 0.5.", work.made.about())
+
+    def test_what_is_too_large_is_not_drawn(self):
+        for required in ((), ("min(fps) >= 40",), ("min(fps) >= 1e9",)):
+            formulas = Formulas()
+            self.found(4, *required, formulas=formulas)
+            with self.subTest(required):
+                self.assertLessEqual(max(self.searched_for(formulas)), 4)
 
 
 class Smallest(unittest.TestCase):
@@ -253,8 +274,18 @@ class Smallest(unittest.TestCase):
         self.assertGreaterEqual(best.values[0], 60)
         work = self.found("min(fps) >= 1e9")
         self.assertEqual(work.made.front(), [])
-        self.assertRegex(work.made.about(), "None holds: the nearest misses min.* by 100")
+        self.assertRegex(work.made.about(), "None of 13 holds: 13 too slow .*misses min.* by 100")
         self.assertIn("One step on any axis gains less than 0.3% of what is", work.made.about())
+
+    def test_only_on_the_way_down_a_machine_that_is_too_large_is_drawn(self):
+        """From a start that holds the rate; from another one nothing but the start."""
+        (best,) = self.found("min(fps) >= 30", "mm2 <= 6").made.front()
+        self.assertLessEqual(best.costs[0], 6)
+        formulas = Formulas()
+        self.found("min(fps) >= 1e9", "mm2 <= 6", formulas=formulas)
+        drawn = [area(settings_of(overrides)) for *_, overrides in formulas.drawn]
+        self.assertEqual({size for size in drawn if size > 6}, {area(PRESET)})
+        self.assertTrue(any(size <= 6 for size in drawn))
 
     def test_what_no_view_tells_alone(self):
         (best,) = self.found("mean(cycles) <= 200").made.front()
@@ -285,8 +316,8 @@ class Recipes(InFolder):
 
     SCENES = ("builtin:object?n=300", "builtin:outdoor?n=300")
 
-    def front(self, out: str, *words: str) -> tuple[dict[str, str], int]:
-        """The first on the front, and how many simulations it took."""
+    def front(self, out: str, *words: str, objective="mm2") -> tuple[dict[str, str], int]:
+        """The best on the front, and how many simulations it took."""
         status, line, _ = self.ended(
             explore,
             *(*self.SCENES, "--streaminggs", COMMAND, "--out", str(self.folder / out)),
@@ -295,7 +326,8 @@ class Recipes(InFolder):
         self.assertEqual(status, 0, line)
         rows = csv.DictReader((self.folder / out / "explore.csv").read_text().splitlines())
         drawn = (self.folder / out / "explore_runs.jsonl").read_text()
-        return next(row for row in rows if row["front"]), drawn.count('"size":"64x36"')
+        best = min((row for row in rows if row["front"]), key=lambda row: float(row[objective]))
+        return best, drawn.count('"size":"64x36"')
 
     def check(self, name: str, view: str, required: list[str], *free: str):
         told = json.loads((options.RECIPES / f"{name}.json").read_text())
@@ -306,10 +338,11 @@ class Recipes(InFolder):
         words += [f"--axis={text}" for text in free]
         chosen = {key for text in free for a in parse_axis(text) for key in keys_of(a)}
         keys = {key for a in order.axes for key in keys_of(a)} - chosen
-        words += [f"--axis={key}={value_at(config, key)}" for key in sorted(keys)]
-        found, drawn = self.front("found", f"--recipe={name}", "--view", view, *words)
+        words += [f"--axis={key}={simulations.value_at(config, key)}" for key in sorted(keys)]
+        of = {"objective": told["objectives"]}
+        found, drawn = self.front("found", f"--recipe={name}", "--view", view, *words, **of)
         words += [f"--machine={order.name}", f"--objectives={told['objectives']}"]
-        best, of_all = self.front("grid", "--view", view, *words)
+        best, of_all = self.front("grid", "--view", view, *words, **of)
         shown = [told["objectives"], *chosen & found.keys()]
         self.assertEqual([found[key] for key in shown], [best[key] for key in shown])
         self.assertLess(drawn, of_all)
@@ -355,6 +388,36 @@ class Recipes(InFolder):
 
 
 class Fronts(unittest.TestCase):
+    def judged(self, *of: tuple[float, float]) -> list[Judged]:
+        """Of cycles and the picture's dB."""
+        return [
+            Judged((f"hfus={n}",), (cycles,), psnr_db=psnr_db, drawn=1)
+            for n, (cycles, psnr_db) in enumerate(of)
+        ]
+
+    def record(self, *of: tuple[float, float]) -> Record:
+        record = Record(Task((), (), "", "", (), (objective("cycles"),), ()), {})
+        for judged in self.judged(*of):
+            record.add(judged)
+        return record
+
+    def test_the_picture_decides_where_pictures_differ(self):
+        inf, nan = math.inf, math.nan
+        for of, front, shown in (
+            (((9, 30.0), (8, 30.04), (7, 30.01)), [7], False),
+            (((9, 40.0), (8, 30.0), (7, 35.0)), [7, 9], True),
+            (((9, inf), (8, 60.0), (7, 59.95)), [7, 8, 9], True),
+            (((9, inf), (8, inf)), [8], False),
+            (((9, nan), (8, nan)), [8], False),
+            (((9, nan), (8, 30.0), (7, 20.0)), [7, 8], True),
+        ):
+            record = self.record(*of)
+            with self.subTest(of):
+                self.assertEqual([judged.costs[0] for judged in record.front()], front)
+                self.assertEqual(record.shows_pictures(), shown)
+                # The best for one objective is that for the objective.
+                self.assertEqual(record.best().costs[0], min(cycles for cycles, _ in of))
+
     def test_of_points_that_are_alike_the_fastest_is_on_the_front(self):
         points = [
             ("exact", 30.0, bus, cycles, 1.0, 5.0, "")

@@ -64,6 +64,18 @@ class Read(InFolder):
         expected = [[cycles, mm2, 1e3 * joules] for cycles, mm2, joules in points]
         self.assertEqual([[values[i] for i in at] for values in facts["points"]], expected)
 
+    def test_the_picture_counts_where_pictures_differ(self):
+        for other_db, kept in ((30.0, [True, False]), (None, [True, True])):
+            text = line(200, 5, 1, set={"hfus": 1}).replace('"psnr_db": null', '"psnr_db": 30.0')
+            other = line(300, 5, 1, set={"hfus": 2})
+            text += other.replace("null", "30.0") if other_db else other
+            status, page = self.page(text)
+            self.assertEqual(status, 0)
+            facts = json.loads(html.unescape(re.search('data-points="([^"]*)"', page)[1]))
+            with self.subTest(other_db):
+                self.assertEqual(facts["best"], kept)
+                self.assertEqual("mJ and PSNR dB" in page, kept[1])
+
     def test_several_views_are_summed_over_what_all_have(self):
         text = "".join(
             line(100 * hfus + view, 5 + view, 1.0, set={"hfus": hfus}, view=view)

@@ -35,8 +35,8 @@ from collections.abc import Callable, Iterator, Sequence
 import in_folder  # noqa: F401, isort: skip (finds the scripts)
 from reporting import charts
 from runs import run_arguments, simulations
-import results
-from results import Column
+import tables
+from tables import Column
 
 SCENE = ("builtin:object?n=60", "--size", "16x16")
 SMALL = (*SCENE, "--view", "0")
@@ -349,8 +349,8 @@ def make(arguments: argparse.Namespace) -> None:
         rows += tried(
             name, WORKS[name], programs, arguments.most, lambda line: print(line, file=sys.stderr)
         )
-    by = results.made(arguments.streaminggs, ())
-    results.write(arguments.out, "write_faults", by, COLUMNS, rows)
+    by = tables.made(arguments.streaminggs, ())
+    tables.write(arguments.out, "write_faults", by, COLUMNS, rows)
     if any(row[-1] for row in rows):
         raise simulations.Failure(f"{sum(row[-1] for row in rows)} found")
 

@@ -45,6 +45,13 @@ Json head_of(const std::string& key, const char* status, const PointInWords& poi
   return {{"key", key}, {"status", status}, {"point", json_of(point)}};
 }
 
+// Of an area its whole band alone.
+void keep_total_band(Json& area_mm2) {
+  if (const auto bands = area_mm2.find("bands"); bands != area_mm2.end()) {
+    *bands = {{"total", bands->at("total")}};
+  }
+}
+
 void drop(Json& from, const char* section, const char* part) {
   if (const auto found = from.find(section); found != from.end()) found->erase(part);
 }
@@ -53,7 +60,7 @@ Json kept_of(Json report) {
   for (const char* part : {"ledger", "left_out", "datapath"}) report.erase(part);
   drop(report, "sram", "uses");
   drop(report, "energy", "bands");
-  drop(report, "area_mm2", "bands");
+  if (report.contains("area_mm2")) keep_total_band(report["area_mm2"]);
   for (const char* key : {"command", "configuration"}) drop(report, "provenance", key);
   report["host"] = {{"simulation_wall_s", report["host"]["simulation_wall_s"]}};
   for (auto& [path, unit] : report["units"].items()) {

@@ -68,5 +68,26 @@ TEST_CASE("key limits: stated and kept to, of all keys of all machines") {
   }
 }
 
+TEST_CASE("group of --set: both sides of a pixel group") {
+  for (const auto& [shape, sides] : std::map<std::string, std::vector<std::string>>{
+           {"64", {"group_width_px=64", "group_height_px=64"}},
+           {"160x120", {"group_width_px=160", "group_height_px=120"}}}) {
+    INFO(shape);
+    const auto text_of = [](RunConfig config) {
+      const std::unique_ptr<ConfigWriter> listing = make_listing_writer();
+      visit(static_cast<ConfigVisitor&>(*listing), config);
+      return listing->text();
+    };
+    CHECK(text_of(preset_with("exact", {"group=" + shape})) ==
+          text_of(preset_with("exact", sides)));
+  }
+  for (const char* shape : {"", "x", "64x", "1x2x3", "-4", "big"}) {
+    INFO(shape);
+    CHECK_THROWS_WITH(preset_with("exact", {std::string("group=") + shape}),
+                      Contains("--set group: got '" + std::string(shape) + "', expected px"));
+  }
+  CHECK_THROWS_WITH(preset_with("gscore", {"group=64"}), Contains("group_width_px"));
+}
+
 }  // namespace
 }  // namespace sgs::test

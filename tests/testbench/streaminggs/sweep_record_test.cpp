@@ -2,6 +2,7 @@
 #include "testbench/streaminggs/sweep/sweep_record.h"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,18 @@ TEST_CASE("sweep record: in short it says which point, and why it has no report"
     CHECK(in_short(line_of_refused("k", point, "too few")) == said + ": too few");
     CHECK(in_short(line_of_failed("k", point, "killed", 2)) == said + ": killed");
   }
+}
+
+TEST_CASE("sweep record: of the bands of area that of the whole is kept") {
+  using Json = nlohmann::ordered_json;
+  const Json band = {{"low", 3}, {"high", 6}};
+  Json report = {{"area_mm2", {{"total", 4}, {"bands", {{"vsu", band}, {"total", band}}}}},
+                 {"energy", {{"total_j", 1}, {"bands", {{"total", band}}}}},
+                 {"host", {{"simulation_wall_s", 1}}}};
+  report["units"] = Json::object();
+  const Json kept = Json::parse(line_of_done("k", {}, report))["report"];
+  CHECK(kept["area_mm2"] == Json{{"total", 4}, {"bands", {{"total", band}}}});
+  CHECK(kept["energy"] == Json{{"total_j", 1}});
 }
 
 }  // namespace

@@ -11,19 +11,21 @@ import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 
-import results
+import tables
 from exploring.axes import Assignments, label, scope_of
 from exploring.judging import Judge, Judged, Task
-from exploring.measures import pareto_front
+from exploring.measures import NAMES
 from exploring.space import Space
-from results import Column
+from tables import Column
+from runs.front import pareto_front, pictures_differ, with_pictures
 from runs.simulations import Run
 
 NOT_DRAWN = "not all views drawn"
+PICTURE = "min(psnr_db)"
 SETTING = "what was simulated, by its key"
 
 
-class Exploration:
+class Record:
     """For several threads."""
 
     def __init__(self, task: Task, names: Mapping[Assignments, str]):
@@ -54,15 +56,31 @@ class Exploration:
             refused = [f"Refused: {j.refused}" for j in self.judged.values() if j.refused]
             return refused + [f"Failed: {j.failed}" for j in self.judged.values() if j.failed]
 
+    def held(self) -> list[Judged]:
+        return [judged for judged in self.told() if judged.holds()]
+
     def front(self) -> list[Judged]:
-        """What holds and no other one that holds beats: of equal ones the first. By costs."""
-        held = [judged for judged in self.told() if judged.holds()]
-        best = pareto_front([judged.costs for judged in held])
-        return sorted((j for j, kept in zip(held, best) if kept), key=lambda j: j.costs)
+        """What holds and no other one that holds beats in what is to be small, nor in its picture
+        where pictures differ. By costs."""
+        held = self.held()
+        pictures = [judged.psnr_db for judged in held]
+        return on_front(held, with_pictures([judged.costs for judged in held], pictures))
+
+    def cheapest(self) -> list[Judged]:
+        """The same by what is to be small alone, which is what a search follows."""
+        held = self.held()
+        return on_front(held, [judged.costs for judged in held])
 
     def best(self) -> Judged | None:
         """For one objective."""
-        return next(iter(self.front()), None) if len(self.task.objectives) == 1 else None
+        return next(iter(self.cheapest()), None) if len(self.task.objectives) == 1 else None
+
+    def shows_pictures(self) -> bool:
+        """Whether they differ, and no column that was asked for says it."""
+        asked = [*(o.measure for o in self.task.objectives), *self.task.shown]
+        asked += [required.measure for required in self.task.requirements]
+        told = NAMES["psnr_db"] in (measure.path for measure in asked)
+        return not told and pictures_differ([judged.psnr_db for judged in self.held()])
 
     def numbers(self, judged: Judged) -> list[object]:
         """Objectives, then what else is shown, then what is required; of what was not drawn to the
@@ -88,6 +106,8 @@ class Exploration:
         for n in range(len(task.keys), len(told)):
             counts = all(isinstance(row[n], int) for row in rows if row[n] != "")
             told[n] = dataclasses.replace(told[n], form="," if counts else ".6g")
+        if self.shows_pictures():
+            told.append(Column(PICTURE, "PSNR of the worst view; inf: equal", "dB", ".2f"))
         told.append(Column("slowest view", "of those that were drawn"))
         told.append(Column("binding", "units that bind, of all views"))
         if self.names:
@@ -101,6 +121,7 @@ class Exploration:
         return (
             *(judged.settings[key] for key in self.task.keys),
             *self.numbers(judged),
+            *(("" if judged.dropped else judged.psnr_db,) if self.shows_pictures() else ()),
             judged.slowest,
             judged.binding,
             *((self.names.get(judged.assignments, ""),) if self.names else ()),
@@ -110,30 +131,59 @@ class Exploration:
 
     def about(self) -> str:
         required = " and ".join(r.text for r in self.task.requirements)
-        held = sum(judged.holds() for judged in self.told())
+        held = len(self.held())
         text = f"{len(self.told())} configurations"
         text += f", of which {held} hold {required}" if required else ""
         said = [f"{text}; {len(self.front())} of them no other one beats."]
-        if not held and (miss := self.nearest_miss()):
-            said.append(f"None holds: {miss}.")
+        if self.shows_pictures():
+            said.append("Pictures differ, so that PSNR decides as well.")
+        if not held and self.task.requirements:
+            said.append(f"None of {len(self.told())} holds: {self.why_none_holds()}.")
+            nearest = self.nearest()
+            if settings := self.what_differs(nearest) if nearest else "":
+                said.append(f"The nearest: {settings}.")
         return "\n\n".join(filter(None, [*said, *self.remarks, *self.not_told()]))
 
     def write(self, out: pathlib.Path, name: str, program: pathlib.Path, remark: str = "") -> None:
         front = self.front()
         rows = [self.row(judged, front) for judged in self.told()]
         scenes = dict.fromkeys(scene for scene, _ in self.task.views)
-        by = results.made(program, [judged.provenance for judged in self.told()], scenes)
+        by = tables.made(program, [judged.provenance for judged in self.told()], scenes)
         only = {"holds": "yes" if self.task.requirements else "", "front": "yes"}
-        results.write(out, name, by, self.columns(rows), rows, remark + self.about(), only=only)
+        tables.write(out, name, by, self.columns(rows), rows, remark + self.about(), only=only)
 
-    def nearest_miss(self) -> str:
-        """Where none holds: what those that miss least miss, and by how much."""
-        missed = [j.violations for j in self.told() if max(j.violations, default=0) > 0]
-        if not missed:
-            return ""
-        least = min(missed, key=max)
-        required = self.task.requirements[least.index(max(least))]
-        return f"the nearest misses {required.text} by {max(least):.1%}"
+    def nearest(self) -> Judged | None:
+        """Of those that miss what is required the one that misses it least."""
+        missed = [judged for judged in self.told() if max(judged.violations, default=0) > 0]
+        return min(missed, key=lambda judged: max(judged.violations), default=None)
+
+    def why_none_holds(self) -> str:
+        """How many miss what, and by how much the nearest one does."""
+        told, said = self.told(), []
+        for n, required in enumerate(self.task.requirements):
+            count = sum(judged.violations[n] > 0 for judged in told)
+            if count:
+                said.append(f"{count} {required.missed_in_words()} ({required.text})")
+        if open_yet := sum(max(judged.violations, default=0) <= 0 for judged in told):
+            said.append(f"{open_yet} not drawn on all views yet")
+        words = ", ".join(said)
+        if not (nearest := self.nearest()):
+            return words
+        missed = max(nearest.violations)
+        of = self.task.requirements[nearest.violations.index(missed)]
+        more = " or more, not drawn on all views" if nearest.dropped else ""
+        return f"{words}; the nearest misses {of.text} by {missed:.1%}{more}"
+
+    def what_differs(self, judged: Judged) -> str:
+        """Its settings that are not the same in all."""
+        told = self.told()
+        keys = [k for k in self.task.keys if len({str(j.settings[k]) for j in told}) > 1]
+        return " ".join(f"{key}={judged.settings[key]}" for key in keys or self.task.keys)
+
+
+def on_front(held: Sequence[Judged], points: Sequence[Sequence[float]]) -> list[Judged]:
+    kept = (judged for judged, best in zip(held, pareto_front(points)) if best)
+    return sorted(kept, key=lambda judged: judged.costs)
 
 
 def whole(value: float) -> float | int:
@@ -149,7 +199,7 @@ class Work:
     arguments: argparse.Namespace
     space: Space
     judge: Judge
-    made: Exploration
+    made: Record
     began: float = dataclasses.field(default_factory=time.monotonic)
     reporting: threading.Lock = dataclasses.field(default_factory=threading.Lock)
 
@@ -176,7 +226,9 @@ class Work:
                 f"{len(best)} on the front, " + ", ".join(f"{n} {v:.6g}" for n, v in numbers)
             )
         else:
-            words.append(", ".join(filter(None, ["none holds yet", self.made.nearest_miss()])))
+            words.append(
+                f"none of {len(self.made.told())} holds yet: {self.made.why_none_holds()}"
+            )
         if math.isfinite(left):
             words[-1] += f"; {max(left, 0) / 60:.1f} min left"
         print(*words, file=sys.stderr, flush=True)

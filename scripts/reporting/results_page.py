@@ -9,22 +9,22 @@ from __future__ import annotations
 
 import base64
 import dataclasses
-import itertools
 import pathlib
 import re
 from collections.abc import Mapping, Sequence
 
-import results
 from reporting import tables
 from reporting.charts import details, escaped, table
 from reporting.folder import read_table
 from report import Panel, page
-from results import facts_of, made_sentence, table_of
+from tables import about_of, facts_of, made_sentence, markdown, table_of
 from runs.files import read_bytes, read_json
 
 README, QUESTIONS = "README.md", "questions.json"
 MOST_ROWS = 10  # of a table in the README
-UNKNOWN = "unknown"
+UNKNOWN = "no release"
+# The commit of a program whose sources no commit has.
+CHANGED = re.compile(r"\w+-dirty\b")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -87,7 +87,7 @@ def readme(folder: pathlib.Path) -> str:
     return (
         text
         + "\n## All tables\n\nUnits, meanings and what limits a table stand in its `.json`.\n\n"
-        + f"<!-- rows: all -->\n{results.markdown(('table', 'made by'), listed)}<!-- end -->\n"
+        + f"<!-- rows: all -->\n{markdown(('table', 'made by'), listed)}<!-- end -->\n"
     )
 
 
@@ -136,24 +136,34 @@ def table_html(folder: pathlib.Path, name: str) -> str:
     made = made_sentence(facts).replace("`", "")
     return details(
         name,
-        f"<p>{escaped(facts['about'])}</p><p class=small>{escaped(made)}</p>"
+        f"<p>{escaped(about_of(folder, name))}</p><p class=small>{escaped(made)}</p>"
         + tables.table_html(read_table(folder / f"{name}.csv"))
         + details("columns", table(("column", "unit", "meaning"), meanings)),
     )
 
 
 def releases(folder: pathlib.Path) -> dict[str, list[str]]:
-    """Tables by what made them: version and commit of the program."""
+    """Tables by the program that made them: its version and commit, as far as they say it."""
     found: dict[str, list[str]] = {}
     for name in names(folder):
         made = facts_of(folder, name)["made"]
-        for each in itertools.product(made["releases"] or [UNKNOWN], made["commits"] or [UNKNOWN]):
-            found.setdefault(", ".join(each), []).append(name)
+        for commit in made["commits"]:
+            for release in made["releases"] or [UNKNOWN]:
+                found.setdefault(f"{release}, {commit}", []).append(name)
     return found
 
 
 def faults(folder: pathlib.Path) -> list[str]:
-    """Why these tables are no results of one release."""
-    found = releases(folder)
-    several = [f"{label}: {', '.join(of)}" for label, of in sorted(found.items())]
-    return [f"tables of {len(found)} releases", *several] if len(found) > 1 else []
+    """Why these tables are not all of one program that can be had again."""
+    said = []
+    made = {name: facts_of(folder, name)["made"] for name in names(folder)}
+    if unnamed := [name for name, of in made.items() if not of["commits"]]:
+        said.append(f"{len(unnamed)} tables name no commit: {', '.join(unnamed)}")
+    if unnamed := [name for name, of in made.items() if of["commits"] and not of["releases"]]:
+        said.append(f"{len(unnamed)} tables name no release: {', '.join(unnamed)}")
+    if changed := [name for name, of in made.items() if any(map(CHANGED.fullmatch, of["commits"]))]:
+        said.append(f"{len(changed)} tables are of uncommitted sources: {', '.join(changed)}")
+    if len(found := releases(folder)) > 1:
+        said.append(f"tables of {len(found)} programs, expected one")
+        said += [f"{label}: {', '.join(of)}" for label, of in sorted(found.items())]
+    return said

@@ -1,6 +1,7 @@
 """Tables of results. A table is two files: NAME.csv has a row a measurement, with numbers as they
 were measured; NAME.json says what made them, of what, and what each column means. The Markdown of a
-README comes from these two."""
+README comes from these two, and from about.json beside them: what a person says of a table, by its
+name, so that a table made again leaves it as it is."""
 
 from __future__ import annotations
 
@@ -21,11 +22,15 @@ from runs.files import content_digest, program_digest, read_json, read_text, wri
 from runs.run_arguments import command_line
 from runs.scenes import Scene
 
+ABOUT = "about.json"
 FIGURES = pathlib.Path(__file__).resolve().parents[1] / "figures.py"
 
 Row = Sequence[object]
 Cells = Mapping[str, str]
 
+# A column of what is required, and of what is measured with or without an aggregate.
+REQUIRED = re.compile(r"(.+) (>=|<=) ([-+.\de]+)")
+MEASURE = re.compile(r"(?:\w+\()?([\w.]+)\)?")
 NUMBER = re.compile(r"[-+]?[\d,]+(\.\d+)?(e[-+]\d+|%)?")
 
 
@@ -70,16 +75,25 @@ class Spread:
 
 @dataclasses.dataclass(frozen=True)
 class Made:
-    """What made a table. program, inputs: digests, of scenes and data sets by name."""
+    """What made a table. program, inputs: digests, of scenes and data sets by name. minutes: of
+    wall time, of all tables that one job makes, its interrupted starts included."""
 
     command: str
     commits: tuple[str, ...]
     releases: tuple[str, ...] = ()
     program: str = ""
     inputs: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    minutes: float | None = None
 
     def sentence(self) -> str:
         return f"Made by `{self.command}`; commit {', '.join(self.commits) or 'unknown'}.\n\n"
+
+
+def measure_of(column: str) -> str:
+    """What a column is of, without aggregate and bound: fps of `min(fps) >= 90`."""
+    required = REQUIRED.fullmatch(column)
+    found = MEASURE.fullmatch(required[1] if required else column)
+    return found[1] if found else column
 
 
 def made(
@@ -171,6 +185,50 @@ def facts_of(folder: pathlib.Path, name: str) -> dict:
     return facts
 
 
+def about_of(folder: pathlib.Path, name: str) -> str:
+    """What to know of a table: what its study says, then what a person says. Raises ValueError,
+    OSError."""
+    of_study, by_hand = facts_of(folder, name)["about"], said_by_hand(folder).get(name, "")
+    return "\n\n".join(filter(None, [of_study, by_hand]))
+
+
+def said_by_hand(folder: pathlib.Path) -> dict[str, str]:
+    """By the names of tables. Raises ValueError, OSError."""
+    path = folder / ABOUT
+    found = read_json(path) if path.exists() else {}
+    if not isinstance(found, dict):
+        raise ValueError(f"{path}: expected texts by the names of tables")
+    return found
+
+
+def join(
+    folder: pathlib.Path, name: str, parts: Sequence[pathlib.Path], minutes: float
+) -> None:
+    """Writes the table with the rows of the parts, which are folders that have one of its name.
+    Raises ValueError where their columns differ, OSError."""
+    facts = [facts_of(part, name) for part in parts]
+    first = facts[0]
+    if any(of["columns"] != first["columns"] for of in facts):
+        raise ValueError(f"{name}: its calls made tables of different columns")
+    rows = [row for part in parts for row in read_rows(part, name)]
+    made = [Made(**of["made"]) for of in facts]
+    by = Made(
+        "; ".join(each.command for each in made),
+        tuple(sorted({commit for each in made for commit in each.commits})),
+        tuple(sorted({release for each in made for release in each.releases})),
+        ", ".join(dict.fromkeys(each.program for each in made)),
+        {name: digest for each in made for name, digest in each.inputs.items()},
+        minutes,
+    )
+    save(
+        *(folder, name, by, [Column(**of) for of in first["columns"]]),
+        [list(row.values()) for row in rows],
+        "\n\n".join(dict.fromkeys(of["about"] for of in facts)),
+        first["spread"] and Spread(**first["spread"]),
+        first["only"],
+    )
+
+
 def made_sentence(facts: dict) -> str:
     return Made(**facts["made"]).sentence()
 
@@ -182,9 +240,9 @@ def read_rows(folder: pathlib.Path, name: str) -> list[dict[str, str]]:
 def markdown_of(folder: pathlib.Path, name: str) -> str:
     """What a README has of a table: who made it, what to know, its rows. Raises ValueError,
     OSError."""
-    facts = facts_of(folder, name)
-    about = f"{facts['about']}\n\n" if facts["about"] else ""
-    return made_sentence(facts) + about + table_of(folder, name)
+    about = about_of(folder, name)
+    said = f"{about}\n\n" if about else ""
+    return made_sentence(facts_of(folder, name)) + said + table_of(folder, name)
 
 
 def table_of(
