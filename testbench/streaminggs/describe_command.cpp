@@ -1,11 +1,12 @@
-// streaminggs describe: the data sheets of a machine and the keys of its configuration, as tables
-// in Markdown. The documentation's tables are made by it.
+// streaminggs describe: the data sheets of a machine, the keys of its configuration and the entries
+// of reports, as tables in Markdown. The documentation's tables are made by it.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "modules/config/strict_json.h"
 #include "testbench/builtin/open_scene.h"
@@ -15,6 +16,7 @@
 #include "testbench/result/sram_budget.h"
 #include "testbench/result/wire.h"
 #include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/report/run_report.h"
 #include "testbench/streaminggs/run/prepared_scene.h"
 #include "tlm/time_resolution.h"
 
@@ -95,6 +97,13 @@ void print_sheets(const MachineResult& machine) {
   }
 }
 
+void print_entries(const char* head, const std::vector<ReportEntry>& entries) {
+  Table table(head);
+  for (const ReportEntry& entry : entries) {
+    table.row(fmt::format("`{}` | {} | {} ", entry.path, entry.unit, entry.meaning));
+  }
+}
+
 // Data sheets do not depend on the scene but for whether there is anything to decode.
 MachineResult sheets_of(RunConfig& config) {
   Scene scene = open_scene("builtin:object?n=64");
@@ -126,6 +135,8 @@ SubCommand add_describe_command(CommandLine& line, const Kinds& kinds) {
     resolve(config);
     fmt::print("{}", keys->text());
     print_sheets(sheets_of(config));
+    print_entries("| entry of a view's report.json | unit | meaning |", entries_of_view());
+    print_entries("| entry of report.json of all views | unit | meaning |", entries_of_all_views());
     return 0;
   };
 }
