@@ -67,6 +67,14 @@ TEST_CASE("command line: options and their values") {
            {"$SG render --help", {"if not given, the one of the ordering's name"}},
            {"$SG simulate --help", {"--stalls FLOAT:in [0, 1]", "probability, as 0.1,"}},
            {"$SG pack --help | grep SCENE", {"builtin:NAME?n=COUNT"}},
+           {"$SG simulate --help", {"--technology TEXT=technology_32nm.json\n"}},
+           {"for c in simulate what-if sweep diff pack train tune render compare photographs gpu "
+            "info "
+            "describe; do $SG $c --help >t && grep -q '^Exit status: 0 done.*; 2 bad arg' t && "
+            "[ $(grep -o paper_no_cgf t | wc -l) -le 1 ] && ! grep /share/ t || exit 1; "
+            "e=$(grep -A 1 '^Example:' t | sed -n 's/^  streaminggs //p'); echo \"$e\"; $SG $e "
+            ">t 2>&1; grep 'help lists' t && exit 1; done; true",
+            {"simulate scene.ply", "describe --config"}},
            {"$SG pack --help > t && ! grep -q 'made by pack' t", {}},
            {"$SG info --help", {".sgs file made by pack"}},
            {"$SG info a.ply > t && ! grep cameras t && cat t",
