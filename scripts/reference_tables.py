@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes the tables of keys, activities and counters that stand beside the sources as KEYS.md, and the
-block diagram of the preset `exact`, from what `streaminggs describe` prints. With --check nothing is
-written, and what differs from the program is an error."""
+"""Writes the tables of keys, activities and counters that stand beside the sources as KEYS.md, the
+table of entries of report.json, and the block diagram of the preset `exact`, from what `streaminggs
+describe` prints. With --check nothing is written, and what differs from the program is an error."""
 
 from __future__ import annotations
 
@@ -22,6 +22,30 @@ KEY = re.compile(r"(?P<key>[\w.]+) = (?P<value>.*?)  \((?P<allowed>[^()]*)\)  (?
 WRITTEN_BY = "<!-- Written by scripts/reference_tables.py from `streaminggs describe`. -->\n\n"
 # Keys with pages of their own.
 MEMORY, STORAGE = "dram.", "storage."
+# Parts of an entry's path that stand for keys of many names, and for which.
+NAMES = {
+    "CODEBOOK": "`scale`, `rotation`, `dc`, `sh`: those that the scene has",
+    "STEP": "a step of [the loss](README.md#maps-of-errors); only of orders and precisions that lose",
+    "PATH": "a unit, with its number; "
+    "[streaming machines](../../modules/streaminggs/KEYS.md), [gscore](../../modules/gscore/KEYS.md)",
+    "ACTIVITY": "what the unit does, in the same tables",
+    "COUNTER": "what the unit counts: the same tables have units and meanings",
+    "REGION": "a [region](../../algorithm/memory/README.md#regions) of memory",
+    "REQUESTER": "the path of a unit",
+    "COMPONENT": "a part of the machine or a use of memory: [cost](../cost/README.md#in-the-report)",
+    "OWNER": "a kind of unit, `between_units`, `memory_path` or `memory_interface`",
+    "SET": "a published set of currents, by its name in the memory's specification",
+    "MEMORY": "`input`, `codebook`, `shared`",
+    "DATAPATH": "a filter's test, a chunk test, a step of a ray, a blend and the like",
+    "CLASS": "`multiplies`; `adds`, subtractions too; `fused`, those of the adds that follow a "
+    "multiply; `divisions`; `divisors`, the different ones; `square_roots`; `logarithms`; "
+    "`exponentials`; `comparisons`; `roundings`; `splits` into whole steps and the rest; `scalings` "
+    "by a power of two that is computed; `look_ups` of a table's row; `conversions` of whole "
+    "numbers; `index_adds`, sums of indices",
+    "KIND": "a part beside the lanes: a row of the technology table; between the lanes "
+    "`register_bit`, `select_bit`",
+}
+NAME = re.compile(r"[A-Z]{2,}")
 
 
 @dataclasses.dataclass
@@ -175,6 +199,28 @@ def memory_page(command: str, exact: Described) -> str:
     ).rstrip("\n") + "\n"
 
 
+def report_page(described: Described) -> str:
+    """Raises ValueError where a path has a name that NAMES lacks, and the other way round."""
+    of_view = described.rows_with("entry of a view's report.json")
+    of_all = described.rows_with("entry of report.json of all views")
+    named = {name for path, *_ in of_view for name in NAME.findall(path)}
+    if wrong := named ^ NAMES.keys():
+        raise ValueError(f"{', '.join(sorted(wrong))}: either in an entry's path or in NAMES")
+    head = ["entry", "unit", "meaning"]
+    return (
+        f"# Entries of report.json\n\n{WRITTEN_BY}"
+        "Each view has a report under `view_N/`. `report.json` above them holds all views.\n"
+        "Integers are counts. Ratios are derived once, from counts. A table of\n"
+        "[what is left out](README.md#what-is-left-out) belongs to `left_out`.\n\n"
+        "## A view\n\n"
+        + table(head, [list(row) for row in of_view])
+        + "## Names in capitals\n\n"
+        + table(["name", "stands for"], [[f"`{name}`", what] for name, what in NAMES.items()])
+        + "## All views\n\n"
+        + table(head, [list(row) for row in of_all])
+    ).rstrip("\n") + "\n"
+
+
 def pages(command: str) -> dict[str, str]:
     """[path below the repository] what stands there."""
     exact, paper, gscore = (described(command, name) for name in ("exact", "paper", "gscore"))
@@ -195,6 +241,7 @@ def pages(command: str) -> dict[str, str]:
             {key: value for key, (value, *_) in exact.keys.items()},
             *(exact.named_rows_with(column) for column in ("datapath", "use", "channels")),
         ),
+        "testbench/streaminggs/REPORT.md": report_page(exact),
     }
 
 

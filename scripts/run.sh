@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds the one program it needs, and sends a built-in scene through the accelerator.
+# Installs what is missing, builds the one program it needs, sends a built-in scene through the accelerator
+# and makes a page of its report.
 # Any arguments are handed to `streaminggs simulate` in place of the built-in job.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -16,9 +17,12 @@ build/release/bin/streaminggs simulate 'builtin:object?n=60000' --view 0 --out "
 build/release/bin/streaminggs simulate 'builtin:object?n=3000' --view 0 --size 64x36 \
   --set group_width_px=32 --set group_height_px=12 \
   --vcd "$out/small_frame.vcd" --out "$out/small_frame" >/dev/null
+scripts/report.py "$out" --out "$out/report.html" >/dev/null
 cat <<TEXT
 
-Look at
+Open
+  $out/report.html            the report as a page: pictures, times, energy, area, traffic
+Beside it are
   $out/view_0/frame.png       the frame, read back from the modelled DRAM
   $out/view_0/reference.png   the reference renderer's
   $out/view_0/error.png       their difference: black where there is none, a legend beside it

@@ -215,7 +215,7 @@ class ChunkScheme : public StorageScheme {
     return fmt::format("at most {} Gaussians", config.chunk_gaussians);
   }
   std::vector<StorageFact> facts(const TableLayout& table) const override {
-    return {{"chunks", *blocks(table)}};
+    return {{"chunks", "", "Stored by chunks: their number.", *blocks(table)}};
   }
 };
 

@@ -69,7 +69,10 @@ struct StorageSize {
 };
 
 // A number that a report states of a stored scene's table.
-using StorageFact = std::pair<const char*, std::variant<std::uint64_t, double>>;
+struct StorageFact {
+  const char *key, *unit, *meaning;
+  std::variant<std::uint64_t, double> value;
+};
 
 class StorageScheme {
  public:

@@ -222,7 +222,9 @@ class VoxelScheme : public StorageScheme {
   }
   std::vector<StorageFact> facts(const TableLayout& layout) const override {
     const auto& table = std::get<VoxelTableLayout>(layout);
-    return {{"voxel_size", double{table.frame.voxel_size}}, {"voxels", table.voxels.count}};
+    return {{"voxel_size", "world units", "Stored by voxels: side of a voxel.",
+             double{table.frame.voxel_size}},
+            {"voxels", "", "Stored by voxels: occupied ones.", table.voxels.count}};
   }
 };
 

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_json.h"
+#include "algorithm/files/nearest_name.h"
 
 namespace sgs {
 
@@ -118,13 +120,18 @@ class JsonReader : public ConfigVisitor {
           index = i;
           return;
         }
-    refuse(key, *json, "one of " + join(allowed));
+    const std::vector<std::string> names(allowed.begin(), allowed.end());
+    refuse(key, *json,
+           "one of " + join(allowed) +
+               (json->is_string() ? did_you_mean(json->get<std::string>(), names) : ""));
   }
 
   void begin_section(const char* key, const char*) override {
     static const Json kNothing = Json::object();
     const Json* json = take(key);
-    if (json != nullptr && !json->is_object()) refuse(key, *json, "an object");
+    if (json != nullptr && !json->is_object()) {
+      refuse(key, *json, "an object" + did_you_mean(key, levels_.back().without(key)));
+    }
     levels_.push_back({json == nullptr ? &kNothing : json, path_of(key), {}});
   }
 
@@ -146,6 +153,13 @@ class JsonReader : public ConfigVisitor {
     const Json* json;
     std::string path;
     std::set<std::string> known;
+
+    std::vector<std::string> without(const std::string& key) const {
+      std::vector<std::string> others;
+      std::copy_if(known.begin(), known.end(), std::back_inserter(others),
+                   [&](const std::string& other) { return other != key; });
+      return others;
+    }
   };
 
   std::string path_of(const std::string& key) const {
@@ -155,6 +169,7 @@ class JsonReader : public ConfigVisitor {
   const Json* take(const char* key) {
     Level& level = levels_.back();
     level.known.insert(key);
+    paths_.push_back(path_of(key));
     const auto found = level.json->find(key);
     return found == level.json->end() ? nullptr : &*found;
   }
@@ -183,13 +198,16 @@ class JsonReader : public ConfigVisitor {
     for (const auto& item : level.json->items()) {
       if (level.known.count(item.key()) > 0) continue;
       const std::string path = level.path.empty() ? item.key() : level.path + "." + item.key();
-      throw InputError(fmt::format("{}: {}: unknown key, expected {}", origin_of(path), path,
-                                   level.known.empty() ? "none" : "one of " + join(level.known)));
+      const auto nearest = nearest_key(path, paths_);
+      throw InputError(fmt::format("{}: {}: unknown key, expected {}{}", origin_of(path), path,
+                                   level.known.empty() ? "none" : "one of " + join(level.known),
+                                   nearest ? "; did you mean " + paths_[*nearest] + "?" : ""));
     }
   }
 
   const std::map<std::string, std::string>& origins_;
   std::vector<Level> levels_;
+  std::vector<std::string> paths_;      // of all keys so far
   std::set<std::string> section_keys_;  // known keys of the last section of the top level
 };
 

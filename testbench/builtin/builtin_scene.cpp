@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "algorithm/files/input_error.h"
+#include "algorithm/files/nearest_name.h"
 #include "testbench/builtin/object_scene.h"
 #include "testbench/builtin/outdoor_scene.h"
 
@@ -52,9 +53,11 @@ Order order_of(const std::string& spec) {
   const std::size_t mark = rest.find('?');
   const auto recipe = recipes().find(rest.substr(0, mark));
   if (recipe == recipes().end()) {
-    std::string names;
-    for (const auto& [name, ignored] : recipes()) names += " builtin:" + name;
-    throw InputError(fmt::format("{}: no such built-in scene, expected one of{}", spec, names));
+    std::vector<std::string> names;
+    for (const auto& [name, ignored] : recipes()) names.push_back("builtin:" + name);
+    throw InputError(fmt::format("{}: no such built-in scene, expected one of {}{}", spec,
+                                 join(names, " "),
+                                 did_you_mean(spec.substr(0, spec.find('?')), names)));
   }
   const Recipe& chosen = recipe->second;
   return {chosen,

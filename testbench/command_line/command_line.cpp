@@ -5,9 +5,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <charconv>
+#include <filesystem>
 
 #include "algorithm/files/input_error.h"
+#include "algorithm/files/nearest_name.h"
 #include "testbench/command_line/version.h"
 
 namespace sgs {
@@ -50,9 +53,53 @@ void check_command(const CLI::App& app, int argc, const char* const* argv) {
   const bool option = !word.empty() && word.front() == '-';
   if (names.empty() || option || std::find(names.begin(), names.end(), word) != names.end()) return;
   throw InputError(fmt::format(
-      "{}, expected one of {}",
+      "{}, expected one of {}{}",
       argc > 1 ? fmt::format("'{}': no such command", word) : std::string("got no command"),
-      join(names)));
+      join(names), did_you_mean(word, names)));
+}
+
+// What "--hfus 8" or "--hfus=8" may mean where no such option is: a key of --set, or an option that
+// is spelt nearly so.
+std::string meaning_of_option(const std::string& name, const std::string& value,
+                              const CLI::App& app, const std::vector<std::string>& keys) {
+  const std::string bare = name.substr(std::min(name.find_first_not_of('-'), name.size()));
+  std::vector<std::string> options;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& long_name : option->get_lnames()) options.push_back("--" + long_name);
+  }
+  std::string as_key = bare;
+  std::replace(as_key.begin(), as_key.end(), '-', '_');
+  const auto key = nearest_key(as_key, keys);
+  const std::string option = did_you_mean("--" + bare, options);
+  if (!key || (!option.empty() && keys[*key] != as_key)) return option;
+  return fmt::format("; did you mean --set {}={}?", keys[*key], value.empty() ? "VALUE" : value);
+}
+
+bool is_option(const std::string& word) {
+  return word.size() > 1 && word[0] == '-' &&
+         std::isdigit(static_cast<unsigned char>(word[1])) == 0;
+}
+
+// extras: those of the words that no option takes, in their order. CLI11 turns the order round, and
+// takes the value of an unknown option for another argument.
+std::string refusal_of(const std::vector<std::string>& extras,
+                       const std::vector<std::string>& words, const CLI::App& app,
+                       const std::vector<std::string>& keys) {
+  const auto found = std::find_if(extras.begin(), extras.end(), is_option);
+  if (found == extras.end()) {
+    return fmt::format("got '{}', expected no further argument", extras.at(0));
+  }
+  const std::size_t equals = found->find('=');
+  const std::string name = found->substr(0, equals);
+  const auto word = std::find(words.begin(), words.end(), *found);
+  std::string value;
+  if (equals != std::string::npos) {
+    value = found->substr(equals + 1);
+  } else if (words.end() - word > 1 && !is_option(word[1])) {
+    value = word[1];
+  }
+  return fmt::format("{}{}{}: no such option{}", name, value.empty() ? "" : " ", value,
+                     meaning_of_option(name, value, app, keys));
 }
 
 }  // namespace
@@ -61,6 +108,7 @@ struct CommandLine::App {
   std::unique_ptr<CLI::App> own;  // the program's, null for a command
   CLI::App* app;                  // own, or one of its commands
   std::vector<std::unique_ptr<CommandLine>> commands;
+  std::function<std::vector<std::string>()> keys;  // those of --set; none where it takes none
 
   template <class Value>
   CLI::Option* add(const char* name, Value& value, const char* what, Given given = Given::kMaybe) {
@@ -95,7 +143,9 @@ void CommandLine::text(const char* name, std::string& value, const char* what, G
 }
 
 void CommandLine::file(const char* name, std::string& value, const char* what, Given given) {
-  app_->add(name, value, what, given)->check(not_empty())->capture_default_str();
+  app_->add(name, value, what, given)
+      ->check(not_empty())
+      ->default_str(std::filesystem::path(value).filename().string());
 }
 
 void CommandLine::one_of(const std::vector<std::string>& allowed, const char* name,
@@ -144,6 +194,12 @@ void CommandLine::needs(const char* name, const char* other) {
   app_->app->get_option(name)->needs(app_->app->get_option(other));
 }
 
+void CommandLine::set_keys(const std::function<std::vector<std::string>()>& keys) {
+  app_->keys = keys;
+}
+
+void CommandLine::end_help_with(const std::string& text) { app_->app->footer(text); }
+
 bool CommandLine::parse(int argc, const char* const* argv) {
   CLI::App& app = *app_->app;
   check_command(app, argc, argv);
@@ -153,9 +209,19 @@ bool CommandLine::parse(int argc, const char* const* argv) {
     app.exit(asked_for_help);
     return false;
   } catch (const CLI::ParseError& error) {
-    std::string asked = app.get_name();
-    for (const CLI::App* command : app.get_subcommands()) asked += " " + command->get_name();
-    throw InputError(fmt::format("{} ({} --help lists what there is)", error.what(), asked));
+    const App* asked = app_.get();
+    std::string name = app.get_name(), what = error.what();
+    for (const std::unique_ptr<CommandLine>& command : app_->commands) {
+      if (!command->chosen()) continue;
+      asked = command->app_.get();
+      name += " " + command->name();
+    }
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+      const bool sets = asked->keys && asked->app->get_option_no_throw("--set") != nullptr;
+      what = refusal_of(app.remaining(true), {argv, argv + argc}, *asked->app,
+                        sets ? asked->keys() : std::vector<std::string>());
+    }
+    throw InputError(fmt::format("{} ({} --help lists what there is)", what, name));
   }
   return true;
 }

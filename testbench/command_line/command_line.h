@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,7 +30,8 @@ class CommandLine {
 
   void flag(const char* name, bool& value, const char* what);
   void text(const char* name, std::string& value, const char* what, Given given = Given::kMaybe);
-  // A text that is not empty: an option that was given must not count as left out.
+  // A text that is not empty: an option that was given must not count as left out. Help shows what
+  // it holds without its folders.
   void file(const char* name, std::string& value, const char* what, Given given = Given::kMaybe);
   void one_of(const std::vector<std::string>& allowed, const char* name, std::string& value,
               const char* what);
@@ -53,6 +55,11 @@ class CommandLine {
 
   // One option of this command is refused without another.
   void needs(const char* name, const char* other);
+
+  // keys: makes the keys that --set of this command takes. Whoever writes one as an option is told.
+  void set_keys(const std::function<std::vector<std::string>()>& keys);
+  // Help ends with this text.
+  void end_help_with(const std::string& text);
 
   // True if anything is left to do: --help and --version are answered here. Throws InputError.
   bool parse(int argc, const char* const* argv);

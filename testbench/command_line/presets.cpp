@@ -8,6 +8,7 @@
 
 #include "algorithm/files/data_files.h"
 #include "algorithm/files/input_error.h"
+#include "algorithm/files/nearest_name.h"
 
 namespace sgs {
 namespace {
@@ -36,8 +37,8 @@ std::string config_file(const std::string& preset_or_path) {
   std::error_code missing;
   if (fs::exists(preset_or_path, missing)) return preset_or_path;
   throw InputError(
-      fmt::format("--config {}: no file of that name, and no preset, expected one of {}",
-                  preset_or_path, join(names)));
+      fmt::format("--config {}: no file of that name, and no preset, expected one of {}{}",
+                  preset_or_path, join(names), did_you_mean(preset_or_path, names)));
 }
 
 }  // namespace sgs

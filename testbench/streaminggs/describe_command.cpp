@@ -1,12 +1,13 @@
-// streaminggs describe: the data sheets of a machine and the keys of its configuration, as tables
-// in Markdown, or the keys of a memspec. The documentation's tables and its block diagram are made
-// by it.
+// streaminggs describe: the data sheets of a machine, the keys of its configuration and the entries
+// of reports, as tables in Markdown, or the keys of a memspec. The documentation's tables and its
+// block diagram are made by it.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "modules/config/strict_json.h"
 #include "modules/dram/memspec.h"
@@ -17,6 +18,7 @@
 #include "testbench/result/sram_budget.h"
 #include "testbench/result/wire.h"
 #include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/report/run_report.h"
 #include "testbench/streaminggs/run/prepared_scene.h"
 #include "tlm/memory_port.h"
 #include "tlm/time_resolution.h"
@@ -106,6 +108,13 @@ void print_memory(const DramConfig& dram) {
                          kPortBytes));
 }
 
+void print_entries(const char* head, const std::vector<ReportEntry>& entries) {
+  Table table(head);
+  for (const ReportEntry& entry : entries) {
+    table.row(fmt::format("`{}` | {} | {} ", entry.path, entry.unit, entry.meaning));
+  }
+}
+
 // Data sheets do not depend on the scene but for whether there is anything to decode.
 MachineResult sheets_of(RunConfig& config) {
   Scene scene = open_scene("builtin:object?n=64");
@@ -149,6 +158,8 @@ SubCommand add_describe_command(CommandLine& line, const Kinds& kinds) {
     fmt::print("{}", keys->text());
     print_sheets(sheets_of(config));
     print_memory(config.dram);
+    print_entries("| entry of a view's report.json | unit | meaning |", entries_of_view());
+    print_entries("| entry of report.json of all views | unit | meaning |", entries_of_all_views());
     return 0;
   };
 }

@@ -153,6 +153,13 @@ SubCommand add_gpu_command(CommandLine& line, const Kinds&) {
   arguments->add_views_to(line);
   line.file("--gpu", arguments->gpu, "JSON file with keys of the model; otherwise Orin NX");
   line.texts("--set", arguments->overrides, "key=value, over it; may be repeated");
+  line.set_keys([] {
+    ConfigDocument document;
+    document.add_text(config_to_json(GpuConfig()), "the defaults");
+    std::vector<std::string> keys;
+    for (const ConfigOrigin& value : document.origins()) keys.push_back(value.path);
+    return keys;
+  });
   line.file("--out", arguments->out, "the same as JSON");
   return [arguments] { return run(*arguments); };
 }

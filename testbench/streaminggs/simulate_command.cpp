@@ -43,6 +43,7 @@ struct SimulateArguments : SceneArguments {
   std::uint32_t frames = 60;    // along it
   double frame_rate = 90;       // at which the energy a second is told
   bool print_config = false;
+  bool verbose = false;
   std::string command;  // the whole command line
 };
 
@@ -184,6 +185,7 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   check_single(arguments);
   setting.technology = load_technology(arguments.technology);
   setting.options = arguments.run;
+  if (arguments.verbose) setting.detail = Detail::kAll;
   setting.options.timeline_groups = range_of(arguments.timeline_groups);
   setting.facts.technology = setting.technology.name;
   setting.facts.technology_path = setting.technology.path;
@@ -252,6 +254,8 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   line.whole(
       "--process-order", build.jitter_seed, 0, kMostSeed,
       "seed that shuffles in which order the processes of an instant act; changes no number");
+  line.flag("--verbose", arguments->verbose,
+            "print also losses, lanes, area by component and what the model chose");
   line.flag("--print-config", arguments->print_config,
             "show every key of the configuration: what --config takes; 0 where it is left open, "
             "with --fit-memories only where it follows from other keys");

@@ -360,6 +360,29 @@ class Ends(InFolder):
             self.assertEqual((done.returncode, done.stdout), (9, built))
             others.touch()
 
+    def test_a_first_frame_names_the_page_of_its_report_first(self):
+        scripts = self.folder / "scripts"
+        command = self.folder / "build" / "release" / "bin" / "streaminggs"
+        for folder in (scripts, command.parent):
+            folder.mkdir(parents=True)
+        shutil.copy(REPOSITORY / "scripts" / "run.sh", scripts)
+        for file, body in (
+            (scripts / "setup.sh", ":"),
+            (command, 'for last; do :; done; mkdir -p "$last"; echo simulated "$last"'),
+            (scripts / "report.py", '[ -d "$1" ] && [ "$2" = --out ] && echo page >"$3"; echo made'),
+        ):
+            file.write_text(f"#!/bin/sh\n{body}\n")
+            file.chmod(0o755)
+        run = ["bash", str(scripts / "run.sh")]
+        done = subprocess.run(run, capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        page = "out/first_frame/report.html"
+        self.assertRegex(
+            done.stdout,
+            rf"\Asimulated out/first_frame\n\nOpen\n  {page} .*\nBeside it are\n  out/(.|\n)*\Z",
+        )
+        self.assertEqual((self.folder / page).read_text(), "page\n")
+
     def test_unknown_scene(self):
         status, line, _ = self.ended(explore, "nowhere", "--axis", "hfus=2")
         self.assertRegex(line, "nowhere: no scene")

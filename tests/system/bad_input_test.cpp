@@ -294,6 +294,24 @@ TEST_CASE("bad input: messages are short, clean and begin with the program") {
           "simulate, what-if, sweep, diff, pack, train, tune, render"}});
   check({"$SG '' --help", 2, {"'': no such command"}});
   check({"$SG simulate", 2, {"SCENE"}});
+  for (const auto& [line, said] : std::vector<std::pair<std::string, std::string>>{
+           {"$SG simulate $B --hfus 8", "--hfus 8: no such option; did you mean --set hfus=8?"},
+           {"$SG simulate --hfus 8 $B", "--hfus 8: no such option; did you mean --set hfus=8?"},
+           {"$SG simulate --input-bytes=4096 $B", "did you mean --set sram.input_bytes=4096?"},
+           {"$SG simulate $B --hfus", "did you mean --set hfus=VALUE?"},
+           {"$SG simulate $B --confg exact",
+            "--confg exact: no such option; did you mean --config?"},
+           {"$SG gpu $B --wats 5", "--wats 5: no such option; did you mean --set watts=5?"},
+           {"$SG compare a b --hfus 8", "--hfus 8: no such option (streaminggs compare --help"},
+           {"$SG simulate $B 8", "got '8', expected no further argument"},
+           {"$SG simulat $B", "; did you mean simulate?"},
+           {"$SG simulate $B --config exat", "; did you mean exact?"},
+           {"$SG simulate $B --set machine=papre", "; did you mean paper?"},
+           {"$SG simulate $B --set hfu=8", "expected an object; did you mean hfus?"},
+           {"$SG simulate $B --set input_byte=8", "; did you mean sram.input_bytes?"},
+           {"$SG simulate builtin:objct", "; did you mean builtin:object?"}}) {
+    check({line, 2, {said}});
+  }
   check({"$SG simulate $B --no-such-option",
          2,
          {"--no-such-option", "(streaminggs simulate --help lists what there is)"}});

@@ -52,7 +52,21 @@ TEST_CASE("command line: options and their values") {
            {"$SG simulate $S --size 32x24 --out o | head -1",
             {"--size 32x24: view 0 has ", "the picture is stretched; 32x18 keeps its shape"}},
            {"$SG simulate $B --out o | tail -1", {"written to o\n"}},
-           {"$SG simulate $B --out o >t && ! grep 'ties of depth' t", {}},
+           {"$SG simulate $B --verbose --out o >t && ! grep 'ties of depth' t", {}},
+           {"$SG simulate $B --out o >t && [ $(wc -l <t) -le 15 ] && ! grep 'lanes (\\|^chosen' t "
+            "&& "
+            "cat t",
+            {"PSNR dB     SSIM = model        cycles     fps  DRAM MB       mJ\n", "\nview 0: ",
+             "\nview 0: energy ", "\n  DRAM region ", "\n  frame_buffer ", " mm2 at 32 nm\n"}},
+           {"$SG simulate $B --verbose --out o",
+            {" binding ", " mm2 at 32 nm: vsu ", " lanes (fp32_lane); ",
+             "\nchosen: ", "\n  frame_buffer "}},
+           {"$SG simulate $B --view 0,1 --out o >t && [ $(wc -l <t) -le 15 ] && cat t",
+            {"\nview 1: ", " values chosen by the model: --verbose lists them\n"}},
+           {"$SG simulate $B --path builtin:path --frames 3 --out o >t && [ $(wc -l <t) -le 9 ] && "
+            "cat t",
+            {"\n3 frames along ", "\nPSNR: worst ", "\nwritten to o\n"}},
+           {"$SG simulate $B --path builtin:path --frames 3 --verbose --out o", {" wall s\n   0 "}},
            {"$SG simulate $B --out o --config gscore_lossless --set clock_mhz=500 && cat "
             "o/report.json",
             {"gscore_lossless + 1 setting: machine gscore, blends in fp32, second halves "
@@ -80,6 +94,14 @@ TEST_CASE("command line: options and their values") {
            {"$SG render --help", {"if not given, the one of the ordering's name"}},
            {"$SG simulate --help", {"--stalls FLOAT:in [0, 1]", "probability, as 0.1,"}},
            {"$SG pack --help | grep SCENE", {"builtin:NAME?n=COUNT"}},
+           {"$SG simulate --help", {"--technology TEXT=technology_32nm.json\n"}},
+           {"for c in simulate what-if sweep diff pack train tune render compare photographs gpu "
+            "info "
+            "describe; do $SG $c --help >t && grep -q '^Exit status: 0 done.*; 2 bad arg' t && "
+            "[ $(grep -o paper_no_cgf t | wc -l) -le 1 ] && ! grep /share/ t || exit 1; "
+            "e=$(grep -A 1 '^Example:' t | sed -n 's/^  streaminggs //p'); echo \"$e\"; $SG $e "
+            ">t 2>&1; grep 'help lists' t && exit 1; done; true",
+            {"simulate scene.ply", "describe --config"}},
            {"$SG pack --help > t && ! grep -q 'made by pack' t", {}},
            {"$SG info --help", {".sgs file made by pack"}},
            {"$SG info a.ply > t && ! grep cameras t && cat t",
@@ -134,6 +156,26 @@ TEST_CASE("command line: a scene that voxels cannot hold is described all the sa
 const std::string kCameras =
     "; echo '[{\"id\": 0, \"img_name\": \"v\", \"width\": 32, \"height\": 18, \"position\": "
     "[0, 0, -5], \"rotation\": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], \"fx\": 30, \"fy\": 30}]' >c";
+
+TEST_CASE("command line: cameras that see next to nothing are doubted") {
+  const std::string simulate = "$SG simulate a.ply --cameras c --out o ";
+  const std::string doubt =
+      "view 0: 0.00 % of the Gaussians lie in the frame: is this a camera of this scene? Expected "
+      "position, and columns of rotation right, down and forward, in the scene's coordinates\n";
+  const std::string behind = ply_of({"0 0 -9"}), before = ply_of({"0 0 0"});
+  for (const OptionRow& row : std::vector<OptionRow>{
+           {simulate, {doubt}, behind},
+           {simulate + ">t && ! grep 'in the frame' t", {}, before},
+           {"sed 's/^\\[\\(.*\\)\\]$/[\\1, \\1]/' c >p; " + simulate + "--path p --frames 2",
+            {"\nframe 0: 0.00 % of"},
+            behind},
+           {"$SG sweep a.ply --cameras c --axis hfus=2 --out r 2>&1", {"a.ply " + doubt}, behind},
+           {"$SG sweep a.ply --cameras c --axis hfus=2 --out r 2>&1 >t | wc -l",
+            {"0\n"},
+            before}}) {
+    check_said({row.line, row.words, row.before + kCameras});
+  }
+}
 
 TEST_CASE("command line: a picture of nothing, and Gaussians that are dropped, are said") {
   const std::string simulate = "$SG simulate a.ply --cameras c --out o ";

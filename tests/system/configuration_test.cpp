@@ -232,6 +232,80 @@ struct TightMemory {
   }
 };
 
+// Paths of a report's values, without the numbers of units. A configuration is one value; a list of
+// objects has the paths of its elements.
+void add_paths(const Json& value, const std::string& path, std::set<std::string>& paths) {
+  const bool whole = path == "config" || path == "views";
+  if (value.is_object() && !whole) {
+    for (const auto& [key, part] : value.items()) {
+      const std::string name =
+          path == "units" ? std::regex_replace(key, std::regex("[0-9]+"), "N") : key;
+      add_paths(part, path.empty() ? name : path + "." + name, paths);
+    }
+  } else if (value.is_array() && !value.empty() && value[0].is_object() && !whole) {
+    for (const Json& element : value) add_paths(element, path + "[]", paths);
+  } else {
+    paths.insert(path);
+  }
+}
+
+// Entries of the table that begins with `head`. In their paths names in capitals stand for any key;
+// those of units have dots in them.
+std::set<std::string> described_entries(const std::string& described, const std::string& head) {
+  std::set<std::string> entries;
+  std::istringstream lines(described.substr(described.find(head)));
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line) && !line.empty()) {
+    if (line.rfind("| `", 0) == 0) entries.insert(line.substr(3, line.find('`', 3) - 3));
+  }
+  return entries;
+}
+
+std::regex pattern_of(const std::string& entry) {
+  std::string text = std::regex_replace(entry, std::regex(R"([.[\]])"), R"(\$&)");
+  text = std::regex_replace(text, std::regex("PATH|REQUESTER"), ".+");
+  return std::regex(std::regex_replace(text, std::regex("[A-Z]{2,}"), "[^.]+"));
+}
+
+void check_entries(const std::set<std::string>& entries, const std::set<std::string>& paths) {
+  REQUIRE_FALSE(entries.empty());
+  std::set<std::string> unknown = paths, missing;
+  for (const std::string& entry : entries) {
+    const std::regex pattern = pattern_of(entry);
+    const std::regex list = pattern_of(entry.substr(0, entry.rfind("[]")));  // if it is empty
+    bool met = false;
+    for (const std::string& path : paths) {
+      const bool is_entry = std::regex_match(path, pattern);
+      if (is_entry || std::regex_match(path, list)) unknown.erase(path);
+      met = met || is_entry;
+    }
+    if (!met) missing.insert(entry);
+  }
+  CHECK(unknown == std::set<std::string>{});
+  CHECK(missing == std::set<std::string>{});
+}
+
+TEST_CASE("configuration: what describe lists of report.json is what reports hold") {
+  const std::string described = run_streaminggs({"describe"}).out;
+  const ScratchFolder scratch;
+  const Arguments scene = {"builtin:object?n=1500", "--size", "64x36"};
+  const std::string packed = scratch.path("scene.sgs");
+  REQUIRE(run_streaminggs({"pack", scene[0], "--config", "exact", "--out", packed}).status == 0);
+  write_cameras(scratch.path("cameras.json"), open_scene(scene[0]).cameras);
+  std::set<std::string> paths;
+  for (const Arguments& run :
+       {joined(scene, {"--config", "paper", "--set", "storage.vq.iterations=1"}),
+        joined(scene, {"--config", "exact"}), joined(scene, {"--config", "gscore"}),
+        Arguments{packed, "--cameras", scratch.path("cameras.json"), "--size", "64x36"}}) {
+    REQUIRE(
+        run_streaminggs(joined(joined({"simulate"}, run), {"--out", scratch.path("out")})).status ==
+        0);
+    add_paths(Json::parse(bytes_of(scratch.path("out/view_0/report.json"))), "", paths);
+  }
+  check_entries(described_entries(described, "| entry of a view's report.json"), paths);
+}
+
 TEST_CASE("configuration: a view that fails is named, loses no other, and ends with status 1") {
   const TightMemory tight(16);
   const ScratchFolder scratch;
@@ -242,6 +316,10 @@ TEST_CASE("configuration: a view that fails is named, loses no other, and ends w
   const Json report = Json::parse(bytes_of(scratch.path("out/report.json")));
   REQUIRE(report["failed"].size() == 1);
   CHECK(report["failed"][0]["view"] == 1);
+  std::set<std::string> paths;
+  add_paths(report, "", paths);
+  check_entries(
+      described_entries(run_streaminggs({"describe"}).out, "| entry of report.json of all"), paths);
   REQUIRE(report["views"].size() == 2);
   CHECK(report["views"][0]["view"] == 0);
   CHECK(report["views"][1]["view"] == 2);

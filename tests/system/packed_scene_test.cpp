@@ -209,7 +209,7 @@ TEST_CASE("pack: a .ply in storage order, whose reference picture is the frame")
   // Said of a single pixel too.
   const Outcome pixel =
       run_streaminggs({"simulate", scenes.ply(), "--cameras", scenes.cameras(), "--view", "2",
-                       "--size", "1x1", "--out", scenes.path("pixel")});
+                       "--size", "1x1", "--verbose", "--out", scenes.path("pixel")});
   CHECK_THAT(pixel.out, Contains("\n  ties of depth in the file's order: 1 pixels of the"));
   // What an encoding that loses decodes to is not always what floats of a file lead to.
   const Arguments half = {"--config", "exact", "--set", "storage.encoding=half"};
@@ -325,7 +325,7 @@ TEST_CASE("pack: what is said of storage is as the file has it, or a preset's") 
            {with("storage.encoding=half"), "storage from scene.sgs: half, voxels of 2\n"},
            {with_settings({"paper"}, {"storage.encoding=half", "storage.voxel_size=0"}),
             "storage from scene.sgs: half, voxels of 2\n"},
-           {{"paper"}, "encoding not known: packed"},
+           {{"paper", "--verbose"}, "encoding not known: packed"},
            {{"paper"}, "are against the decoded scene"}}) {
     INFO(word);
     const Outcome outcome = run_streaminggs(joined(simulate, more));

@@ -16,45 +16,75 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json list_choices(const std::vector<AutoChoice>& chosen) {
-  Json list = Json::array();
-  for (const AutoChoice& choice : chosen) {
-    list.push_back({{"key", choice.key}, {"value", choice.value}, {"why", choice.why}});
-  }
-  return list;
+constexpr const char* kConfigMeaning = "Every key of the configuration, resolved.";
+
+// The entries of a view that the run brings. config, chosen: the run's. image_hash: the view's.
+void visit_run(ReportVisitor& r, const RunFacts& facts, const Json& config,
+               const std::vector<AutoChoice>& chosen, std::uint64_t image_hash) {
+  const auto hash = [](std::uint64_t value) { return fmt::format("{:016x}", value); };
+  r.object("host", [&] {
+    r("wall_s", "s", "Host time since the command began, for all views so far.",
+      seconds_since(facts.began));
+    r("peak_rss_bytes", "B", "Largest host memory of the process or of a child.", peak_rss_bytes());
+  });
+  r("config", "", kConfigMeaning, config);
+  r.list("chosen", chosen, [&](const AutoChoice& choice) {
+    r("key", "", "A key that the configuration leaves open and the model chose.", choice.key);
+    r("value", "", "The value that it chose.", choice.value);
+    r("why", "", "Why it chose that.", choice.why);
+  });
+  r.object("provenance", [&] {
+    r("version", "", "Version of the program.", version());
+    r("commit", "", "Commit of the program, as its build found it.", commit());
+    r("memory_image_xxh64", "XXH64",
+      "Hash of the bytes loaded into the modelled DRAM: equal hashes, equal input.",
+      hash(image_hash));
+    r("technology", "", "Name of the table of energy and area.", facts.technology);
+    r("technology_path", "", "File of that table.", facts.technology_path);
+    r("technology_xxh64", "XXH64", "Hash of that file, as `xxhsum` prints it.",
+      hash(facts.technology_hash));
+    r("seed", "", "Seed of the random stalls.", facts.seed);
+    r("configuration", "",
+      "Name of the configuration, and how many `--set` go over it. A sweep's points say it "
+      "instead.",
+      facts.configuration);
+    r("command", "", "The command line.", facts.command);
+  });
+}
+
+// The entries of a report of several views.
+void visit_all(ReportVisitor& r, const Json& config,
+               const std::vector<std::pair<int, std::string>>& failed, const Json& views) {
+  r("schema_version", "", "Version of this layout.", kReportVersion);
+  r("config", "", kConfigMeaning, config);
+  r.list("failed", failed, [&](const auto& failure) {
+    r("view", "", "Number of a view that could not be finished.", failure.first);
+    r("why", "", "Why not.", failure.second);
+  });
+  r("views", "", "The reports of the views that were finished.", views);
 }
 
 }  // namespace
 
 struct RunReport::Content {
-  Json config, chosen, views;
+  Json config, views;
+  std::vector<AutoChoice> chosen;
 };
 
 RunReport::RunReport(RunConfig& config, RunFacts facts)
     : facts_(std::move(facts)), content_(std::make_unique<Content>()) {
   content_->config = parse_json(to_json(config), "the configuration");
-  content_->chosen = list_choices(config.chosen);
+  content_->chosen = config.chosen;
 }
 
 RunReport::~RunReport() = default;
 
 std::shared_ptr<const Json> RunReport::of_view(const ViewResult& view,
                                                const PreparedScene& scene) const {
-  auto report = std::make_shared<Json>(view_report(view, scene));
-  Json& out = *report;
-  out["config"] = content_->config;
-  out["chosen"] = content_->chosen;
-  out["host"]["wall_s"] = seconds_since(facts_.began);
-  out["host"]["peak_rss_bytes"] = peak_rss_bytes();
-  out["provenance"] = {{"version", version()},
-                       {"commit", commit()},
-                       {"memory_image_xxh64", fmt::format("{:016x}", view.image_hash)},
-                       {"technology", facts_.technology},
-                       {"technology_path", facts_.technology_path},
-                       {"technology_xxh64", fmt::format("{:016x}", facts_.technology_hash)},
-                       {"seed", facts_.seed},
-                       {"configuration", facts_.configuration},
-                       {"command", facts_.command}};
+  auto report = std::make_shared<Json>();
+  ReportWriter writer(*report);
+  visit_view(writer, view, scene);
+  visit_run(writer, facts_, content_->config, content_->chosen, view.image_hash);
   return report;
 }
 
@@ -62,12 +92,22 @@ void RunReport::add(const Json& view) { content_->views.push_back(view); }
 
 std::string RunReport::text(const std::vector<std::pair<int, std::string>>& failed) const {
   Json all;
-  all["schema_version"] = kReportVersion;
-  all["config"] = content_->config;
-  all["failed"] = Json::array();
-  for (const auto& [view, why] : failed) all["failed"].push_back({{"view", view}, {"why", why}});
-  all["views"] = content_->views;
+  ReportWriter writer(all);
+  visit_all(writer, content_->config, failed, content_->views);
   return report_text(all);
+}
+
+std::vector<ReportEntry> entries_of_view() {
+  ReportTeller teller;
+  visit_view(teller, ViewResult(), PreparedScene());
+  visit_run(teller, RunFacts(), {}, {}, 0);
+  return teller.entries();
+}
+
+std::vector<ReportEntry> entries_of_all_views() {
+  ReportTeller teller;
+  visit_all(teller, {}, {}, {});
+  return teller.entries();
 }
 
 // A scene's name may be any bytes.

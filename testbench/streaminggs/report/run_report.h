@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "testbench/streaminggs/report/report_entry.h"
 #include "testbench/streaminggs/run/run_config.h"
 #include "testbench/streaminggs/run/view_result.h"
 
@@ -45,5 +46,9 @@ class RunReport {
 
 // As it stands in the file.
 std::string report_text(const nlohmann::ordered_json& report);
+
+// What such reports may hold: of one view, and of all.
+std::vector<ReportEntry> entries_of_view();
+std::vector<ReportEntry> entries_of_all_views();
 
 }  // namespace sgs

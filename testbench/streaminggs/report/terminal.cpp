@@ -42,32 +42,42 @@ void print_order_loss(const OrderLoss& loss, const GoldenFrame& golden) {
 
 }  // namespace
 
-void print_table_head() {
-  fmt::print("{:>4} {:>8} {:>8} {:>7} {:>13} {:>7} {:>8} {:>6} {:>8} {:>7} {:>10} {:>5} {:>7}\n",
-             "view", "PSNR dB", "SSIM", "= model", "cycles", "fps", "DRAM MB", "x once", "mJ", "W",
-             "binding", "busy", "wall s");
+void print_table_head(Detail detail) {
+  fmt::print("{:>4} {:>8} {:>8} {:>7} {:>13} {:>7} {:>8} {:>8}", "view", "PSNR dB", "SSIM",
+             "= model", "cycles", "fps", "DRAM MB", "mJ");
+  if (detail == Detail::kAll) {
+    fmt::print(" {:>6} {:>7} {:>10} {:>5} {:>7}", "x once", "W", "binding", "busy", "wall s");
+  }
+  fmt::print("\n");
 }
 
-void print_table_line(const ViewResult& v) {
-  fmt::print(
-      "{:>4} {:>8} {:>8.5f} {:>7} {:>13} {:>7} {:>8.2f} {:>6.2f} {:>8.3f} {:>7.3f} {:>10} "
-      "{:>4.0f}% "
-      "{:>7.2f}\n",
-      v.view, std::isinf(v.psnr_db) ? "equal" : fmt::format("{:.2f}", v.psnr_db), v.ssim,
-      v.equals_golden ? "yes" : "NO", grouped(v.run.cycles),
-      grouped(static_cast<std::uint64_t>(std::llround(1 / v.run.time_s()))),
-      static_cast<double>(v.run.memory.bytes) / 1e6, v.once_ratio(), v.energy_j.total.middle * 1e3,
-      v.mean_power_w(), v.binding.unit, 100 * v.binding.utilisation, v.run.wall_s);
+void print_table_line(const ViewResult& v, Detail detail) {
+  fmt::print("{:>4} {:>8} {:>8.5f} {:>7} {:>13} {:>7} {:>8.2f} {:>8.3f}", v.view,
+             std::isinf(v.psnr_db) ? "equal" : fmt::format("{:.2f}", v.psnr_db), v.ssim,
+             v.equals_golden ? "yes" : "NO", grouped(v.run.cycles),
+             grouped(static_cast<std::uint64_t>(std::llround(1 / v.run.time_s()))),
+             static_cast<double>(v.run.memory.bytes) / 1e6, v.energy_j.total.middle * 1e3);
+  if (detail == Detail::kAll) {
+    fmt::print(" {:>6.2f} {:>7.3f} {:>10} {:>4.0f}% {:>7.2f}", v.once_ratio(), v.mean_power_w(),
+               v.binding.unit, 100 * v.binding.utilisation, v.run.wall_s);
+  }
+  fmt::print("\n");
 }
 
-void print_details(const ViewResult& v) {
-  fmt::print("\nview {}: {}\n", v.view, v.binding.sentence());
-  const Band& energy = v.energy_j.total;
-  fmt::print("view {}: energy {:.3f} ({:.3f} .. {:.3f}) mJ\n", v.view, energy.middle * 1e3,
-             energy.low * 1e3, energy.high * 1e3);
+void print_bottleneck(const ViewResult& v) {
+  fmt::print("view {}: {}\n", v.view, v.binding.sentence());
   if (v.golden.contributing == 0) {
     fmt::print("view {}: no Gaussian contributes to the picture\n", v.view);
   }
+}
+
+void print_energy(const ViewResult& v) {
+  const Band& energy = v.energy_j.total;
+  fmt::print("view {}: energy {:.3f} ({:.3f} .. {:.3f}) mJ\n", v.view, energy.middle * 1e3,
+             energy.low * 1e3, energy.high * 1e3);
+}
+
+void print_losses(const ViewResult& v) {
   if (v.file_order && v.file_order->pixels > 0) {
     fmt::print(
         "  ties of depth in the file's order: {} pixels of the reference picture differ, {:.2f} "
@@ -75,7 +85,10 @@ void print_details(const ViewResult& v) {
         grouped(v.file_order->pixels), v.file_order->psnr_db, v.file_order->max_abs_error);
   }
   if (v.order_loss) print_order_loss(*v.order_loss, v.golden);
-  fmt::print("  {:<14} {:>14} {:>14}\n", "DRAM region", "B asked for", "B on the bus");
+}
+
+void print_regions(const ViewResult& v) {
+  fmt::print("  {:<14} {:>14} {:>14}\n", "DRAM region", "B requested", "B on the bus");
   for (const auto& [region, bus_bytes] : v.run.memory.bus_bytes_by_region) {
     std::uint64_t asked = 0;
     for (const RegionTraffic& t : v.run.memory.traffic) {
@@ -98,18 +111,28 @@ void print_scene(const PreparedScene& scene, const RunConfig& config, bool dropp
   }
 }
 
-void print_machine(const ViewResult& v, const std::vector<AutoChoice>& chosen,
-                   const std::string& technology) {
-  fmt::print("\narea {} mm2 at {}; {} with PHY and controller of the memory\n",
+void print_area(const ViewResult& v, const std::string& technology, Detail detail) {
+  fmt::print("area {} mm2 at {}; {} with PHY and controller of the memory\n",
              in_words(v.area_totals_mm2.without_memory_interface), technology,
              in_words(v.area_totals_mm2.with_memory_interface));
+  if (detail == Detail::kShort) return;
   fmt::print("  mm2 by kind: {}\n", in_words(v.area_mm2));
   fmt::print("  mm2 by owner, with its on-chip memory: {}\n", in_words(v.area_by_owner_mm2));
+}
+
+void print_lanes(const ViewResult& v) {
   for (const auto& [d, items, busiest] : v.run.machine.datapaths) {
     const std::string published =
         d.published_macs > 0 ? fmt::format(" {} published,", d.published_macs) : "";
     fmt::print("{}: {} lanes ({}); multiply-accumulates each: {} counted,{} {} charged\n", d.name,
                d.all_lanes(), d.lane, d.counted_macs, published, d.used_macs);
+  }
+}
+
+void print_choices(const std::vector<AutoChoice>& chosen, Detail detail) {
+  if (detail == Detail::kShort && !chosen.empty()) {
+    fmt::print("{} values chosen by the model: --verbose lists them\n", chosen.size());
+    return;
   }
   for (const AutoChoice& choice : chosen) {
     fmt::print("chosen: {} {:g}: {}\n", choice.key, choice.value, choice.why);

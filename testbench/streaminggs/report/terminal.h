@@ -1,27 +1,36 @@
 // The printed output of `simulate`: a table with a line a view, and below it explanations of the
-// lines.
+// lines. Without --verbose it is short.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "testbench/streaminggs/run/run_setting.h"
 #include "testbench/streaminggs/run/view_result.h"
 
 namespace sgs {
 
-void print_table_head();
-void print_table_line(const ViewResult& view);
+void print_table_head(Detail detail);
+void print_table_line(const ViewResult& view, Detail detail);
 
-// Binding unit, bytes by region that are not 0, costs of tests.
-void print_details(const ViewResult& view);
+void print_bottleneck(const ViewResult& view);
+// Energy with its band.
+void print_energy(const ViewResult& view);
+// What ties of depth, order, arithmetic and encoding cost, where they cost anything.
+void print_losses(const ViewResult& view);
+// Bytes by region that are not 0.
+void print_regions(const ViewResult& view);
 
 // Prints the facts of loading: Gaussians dropped, where storage comes from. dropping: it was asked
 // for.
 void print_scene(const PreparedScene& scene, const RunConfig& config, bool dropping);
 
-// Area, and what was left to the model; the same for all views. technology: its name.
-void print_machine(const ViewResult& view, const std::vector<AutoChoice>& chosen,
-                   const std::string& technology);
+// Area with its band; the same for all views. technology: its name.
+void print_area(const ViewResult& view, const std::string& technology, Detail detail);
+// Lanes of each datapath; the same for all views.
+void print_lanes(const ViewResult& view);
+// What was left to the model.
+void print_choices(const std::vector<AutoChoice>& chosen, Detail detail);
 
 }  // namespace sgs

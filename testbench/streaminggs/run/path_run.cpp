@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -14,9 +17,10 @@
 #include "algorithm/image/image_io.h"
 #include "testbench/streaminggs/report/contact_sheet.h"
 #include "testbench/streaminggs/report/numbers.h"
-#include "testbench/streaminggs/report/report.h"
 #include "testbench/streaminggs/report/terminal.h"
+#include "testbench/streaminggs/run/camera_check.h"
 #include "testbench/streaminggs/run/path_summary.h"
+#include "testbench/streaminggs/run/progress.h"
 #include "testbench/streaminggs/run/view_result.h"
 
 namespace sgs {
@@ -137,9 +141,13 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
   Json report, lines = Json::array();
   std::vector<PathFrame> frames;
   ContactSheet sheet(job.frames.size());
-  double energy_j = 0;
+  double energy_j = 0, worst_psnr_db = std::numeric_limits<double>::infinity();
+  std::size_t worst_picture = 0;
   bool equal = true;
-  print_table_head();
+  const bool all = setting.detail == Detail::kAll;
+  std::optional<ProgressLine> progress;
+  if (!all) progress.emplace();
+  if (all) print_table_head(setting.detail);
   for (std::size_t i = 0; i < job.frames.size(); ++i) {
     const RunConfig& machine = i > 0 && later ? *later : config;
     ViewResult view;
@@ -159,9 +167,14 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
     }
     write_image(out.frame(i).string(), view.frame);
     if (i == 0) out.keep_only({out.frame(0)});
-    print_table_line(view);
-    std::fflush(stdout);
+    if (all) {
+      print_table_line(view, setting.detail);
+      std::fflush(stdout);
+    }
+    if (progress) progress->say(fmt::format("{} of {} frames", i + 1, job.frames.size()));
     equal = equal && view.equals_golden;
+    if (view.psnr_db < worst_psnr_db) worst_picture = i;
+    worst_psnr_db = std::min(worst_psnr_db, view.psnr_db);
     frames.push_back({view.run.time_s(), view.energy_j.total.middle, idle_w(view)});
     energy_j += view.energy_j.total.middle;
     lines.push_back(line_of(of_view));
@@ -170,6 +183,7 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
       sheet.add(view.frame, fmt::format("{} - {:.0f} FPS", i, 1 / view.run.time_s()));
     }
   }
+  progress.reset();
   const PathSummary summary = summarise(frames, job.frame_rate);
   report["path"] = {{"name", job.name}};
   report["summary"] = to_json(summary, job, energy_j);
@@ -181,6 +195,17 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
   write_image(files.add(out.contact_sheet().string()), sheet.sheet());
   files.commit();
   print(summary, job, energy_j);
+  if (std::isinf(worst_psnr_db)) {
+    fmt::print("every frame equals its reference picture\n");
+  } else {
+    fmt::print("PSNR: worst {:.2f} dB (frame {})\n", worst_psnr_db, worst_picture);
+  }
+  for (std::size_t i = 0; i < job.frames.size(); ++i) {
+    const std::string doubt = doubt_about(job.frames[i], scene.given());
+    if (doubt.empty()) continue;
+    fmt::print("frame {}: {}\n", i, doubt);
+    break;  // the others likely say the same
+  }
   if (!equal) fmt::print("\na frame differs from the golden renderer's\n");
   fmt::print("\nwritten to {}\n", out.path_report().parent_path().string());
   return equal ? 0 : 1;

@@ -164,6 +164,20 @@ void visit(ConfigVisitor& v, RunConfig& c) {
   v.section("dram", c.dram, "memory");
 }
 
+std::vector<std::string> keys_of(const std::vector<MachineKind>& kinds) {
+  std::vector<std::string> keys;
+  for (const MachineKind& kind : kinds) {
+    ConfigDocument document;
+    document.add_override(fmt::format("machine={}", kind.name));
+    RunConfig config = read_run_config(document, kinds);
+    document.add_text(to_json(config), "the defaults");
+    for (const ConfigOrigin& value : document.origins()) {
+      if (std::find(keys.begin(), keys.end(), value.path) == keys.end()) keys.push_back(value.path);
+    }
+  }
+  return keys;
+}
+
 RunConfig read_run_config(const ConfigDocument& document, const std::vector<MachineKind>& kinds) {
   RunConfig config;
   config.kinds = &kinds;

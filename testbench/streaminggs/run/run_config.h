@@ -36,6 +36,9 @@ void visit(ConfigVisitor& v, RunConfig& config);
 // The kinds that read scenes stored in this order: "a or b"; empty where there is none.
 std::string readers_of(const std::vector<MachineKind>& kinds, StorageOrder order);
 
+// Every key that the configuration of one of the kinds has, as a path.
+std::vector<std::string> keys_of(const std::vector<MachineKind>& kinds);
+
 // As the document says; what is left to the model is not resolved yet. Throws InputError.
 RunConfig read_run_config(const ConfigDocument& document, const std::vector<MachineKind>& kinds);
 

@@ -9,12 +9,16 @@
 
 namespace sgs {
 
+// How much the terminal shows.
+enum class Detail { kShort, kAll };
+
 struct RunSetting {
   RunConfig config;  // resolved
   Technology technology;
   PreparedScene scene;
   RunOptions options;
   RunFacts facts;
+  Detail detail = Detail::kShort;
 };
 
 }  // namespace sgs

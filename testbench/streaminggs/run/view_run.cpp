@@ -17,6 +17,7 @@
 #include "testbench/streaminggs/report/error_maps.h"
 #include "testbench/streaminggs/report/group_table.h"
 #include "testbench/streaminggs/report/terminal.h"
+#include "testbench/streaminggs/run/camera_check.h"
 #include "testbench/streaminggs/run/view_result.h"
 
 namespace sgs {
@@ -52,6 +53,21 @@ void write_view(const fs::path& folder, const ViewResult& view, const std::strin
   for (const std::string& file : old) fs::remove(folder / file);
 }
 
+// Several views share a short line each.
+void print_views(const std::vector<ViewResult>& views, const RunSetting& setting) {
+  const bool all = setting.detail == Detail::kAll;
+  for (const ViewResult& view : views) {
+    if (all || &view == &views.front()) fmt::print("\n");
+    print_bottleneck(view);
+    const std::string doubt = doubt_about(view.camera, setting.scene.given());
+    if (!doubt.empty()) fmt::print("view {}: {}\n", view.view, doubt);
+    if (!all && views.size() > 1) continue;
+    print_energy(view);
+    if (all) print_losses(view);
+    print_regions(view);
+  }
+}
+
 }  // namespace
 
 std::vector<fs::path> files_of_views(const NumberedCameras& views, const ResultFolder& out) {
@@ -70,7 +86,7 @@ int run_views(const NumberedCameras& views, RunSetting& setting, const ResultFol
   std::vector<ViewResult> results;
   bool equal = true, all_refused = true;
   std::size_t named = 0;  // among failed
-  print_table_head();
+  print_table_head(setting.detail);
   for (const auto& [number, camera] : views) {
     try {
       ViewResult view = simulate_view(setting.scene, number, camera, setting.config,
@@ -78,7 +94,7 @@ int run_views(const NumberedCameras& views, RunSetting& setting, const ResultFol
       const auto of_view = report.of_view(view, setting.scene);
       write_view(out.view(number), view, report_text(*of_view));
       if (results.empty()) out.keep_only(ResultFolder::files_of(out.view(number)));
-      print_table_line(view);
+      print_table_line(view, setting.detail);
       equal = equal && view.equals_golden;
       report.add(*of_view);
       results.push_back(std::move(view));
@@ -101,9 +117,11 @@ int run_views(const NumberedCameras& views, RunSetting& setting, const ResultFol
   if (results.empty()) throw std::runtime_error("no view could be finished");
   const std::string text = report.text(failed);
   write_whole_file(out.report().string(), text.data(), text.size());
-  for (const ViewResult& view : results) print_details(view);
+  print_views(results, setting);
   print_scene(setting.scene, setting.config, dropping);
-  print_machine(results.front(), setting.config.chosen, setting.technology.name);
+  print_area(results.front(), setting.technology.name, setting.detail);
+  if (setting.detail == Detail::kAll) print_lanes(results.front());
+  print_choices(setting.config.chosen, setting.detail);
   for (const auto& [view, why] : failed) fmt::print("\nview {} failed: {}\n", view, why);
   if (!equal) fmt::print("\nthe frame differs from the golden renderer's\n");
   fmt::print("\nwritten to {}\n", out.report().parent_path().string());

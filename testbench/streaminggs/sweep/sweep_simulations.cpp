@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
 #include "algorithm/memory/frame_buffer.h"
+#include "testbench/streaminggs/run/camera_check.h"
 
 namespace sgs {
 namespace {
@@ -62,8 +64,13 @@ std::unique_ptr<ChildProcess> SweepSimulations::start(const SweepTask& task) {
   const std::string of_view =
       fmt::format("{}\n{}\n{} {} {}", of_scene, text_of(task.camera), job.frame.background.x,
                   job.frame.background.y, job.frame.background.z);
-  const auto references =
-      references_.get(of_view, [&] { return reference_pictures(*scene, job.frame, nullptr); });
+  const auto references = references_.get(of_view, [&] {
+    const std::string doubt = doubt_about(task.camera, scene->given());
+    if (!doubt.empty()) {
+      fmt::print(stderr, "streaminggs: {} view {}: {}\n", task.words.scene, task.view, doubt);
+    }
+    return reference_pictures(*scene, job.frame, nullptr);
+  });
   const std::string of_picture =
       fmt::format("{}\n{} {}", of_view, task.picture, static_cast<int>(job.frame.frame_format));
   const auto expected = expected_.get(

@@ -16,6 +16,7 @@
 #include "testbench/result/collect.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/report/frame_noise.h"
+#include "testbench/streaminggs/run/camera_check.h"
 #include "testbench/streaminggs/run/frame_run.h"
 #include "testbench/streaminggs/run/prepared_scene.h"
 #include "testbench/streaminggs/run/scene_arguments.h"
@@ -180,6 +181,8 @@ Json run_view(const Base& base, int number, const Camera& camera) {
   print(outcome, doublings);
   const std::string says = verdict(outcome, doublings);
   fmt::print("{}\n", says);
+  const std::string doubt = doubt_about(camera, base.scene.given());
+  if (!doubt.empty()) fmt::print("view {}: {}\n", number, doubt);
   std::fflush(stdout);
   return to_json(number, outcome, doublings, says);
 }

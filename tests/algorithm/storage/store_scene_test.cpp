@@ -204,7 +204,7 @@ TEST_CASE("storage schemes: names, sizes, choices and facts of each order") {
     const auto key = [](const auto& entry) { return entry.key; };
     CHECK(names(scheme.sizes(), key) == c.keys);
     CHECK(names(scheme.facts(scene.image.layout.table),
-                [](const StorageFact& f) { return f.first; }) == c.facts);
+                [](const StorageFact& f) { return f.key; }) == c.facts);
     CHECK(scheme.choose(config, 256).empty());
     CHECK(scheme.choose(config, cloud).empty());
     // Left open, a size is chosen once and then is none that a scene cannot be stored by.

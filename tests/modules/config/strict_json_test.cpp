@@ -75,7 +75,11 @@ TEST_CASE("strict json: values, names, nested objects and defaults") {
 TEST_CASE("strict json: refusals name file, key, what was found and what is allowed") {
   CHECK(refusal(R"({"lane": 8})") ==
         "test.json: lane: unknown key, expected one of colour, inner, label, lanes, notes, "
-        "rate_mhz, sets, taps");
+        "rate_mhz, sets, taps; did you mean lanes?");
+  CHECK(refusal(R"({"colur": "red"})").find("; did you mean colour?") != std::string::npos);
+  CHECK(refusal(R"({"depht": 3})").find("; did you mean inner.depth?") != std::string::npos);
+  CHECK(refusal(R"({"colour": "gren"})") ==
+        "test.json: colour: got \"gren\", expected one of red, green; did you mean green?");
   CHECK(refusal(R"({"inner": {"width": 8}})") ==
         "test.json: inner.width: unknown key, expected one of depth, on");
   CHECK(refusal(R"({"inner": {"depth": 0}})") ==

@@ -146,7 +146,7 @@ TEST_CASE("toy machine: binding, energy, area and SRAM follow from its data shee
 }
 
 TEST_CASE("toy machine: waveform and terminal") {
-  const Toy toy;
+  const Toy toy({"--verbose"});
   const std::string wave = toy.file("wave.vcd");
   for (const char* scope :
        {"accelerator", "fetch", "ask", "add", "write", "fetched", "colours", "memory"}) {
