@@ -1,6 +1,8 @@
 // A comparator beside the lanes: one operation a cycle on words of 32 bits. Numbers compare as in
 // C++: none is less or equal where one is no number, and zeros are equal.
-module comparator (
+module comparator #(
+    parameter [5:0] HAS = 6'b111111  // its operations, from bit 0
+) (
     input [2:0] operation,
     input [31:0] a,
     input [31:0] b,
@@ -22,8 +24,8 @@ module comparator (
   wire below = a[31] != b[31] ? a[31] & ~both_zero :
       a[31] ? ~magnitude_less & (a[30:0] != b[30:0]) : magnitude_less;
   wire ordered = ~(a_nan | b_nan);
-  assign less = ordered & below;
-  assign less_or_equal = ordered & (below | equal);
+  assign less = HAS[0] & ordered & below;
+  assign less_or_equal = HAS[0] & ordered & (below | equal);
   wire greater = ordered & ~below & ~equal;
 
   wire [4:0] zeros;
@@ -36,12 +38,12 @@ module comparator (
   );
   always @* begin
     case (operation)
-      MINIMUM: value = greater ? b : a;
-      MAXIMUM: value = less ? b : a;
-      ADD: value = a + b;
-      LEFT: value = a << b[4:0];
-      RIGHT: value = a >> b[4:0];
-      ZEROS: value = {27'b0, zeros};
+      MINIMUM: value = HAS[0] & greater ? b : a;
+      MAXIMUM: value = HAS[1] & less ? b : a;
+      ADD: value = HAS[2] ? a + b : a;
+      LEFT: value = HAS[3] ? a << b[4:0] : a;
+      RIGHT: value = HAS[4] ? a >> b[4:0] : a;
+      ZEROS: value = HAS[5] ? {27'b0, zeros} : a;
       default: value = a;
     endcase
   end

@@ -43,10 +43,9 @@ module lane_add #(
   wire is_normal = raised[DIGITS] | raised[DIGITS-1];
   wire [RANGE-1:0] rounded_exponent = placed_exponent + {{RANGE - 1{1'b0}}, raised[DIGITS]};
   wire overflows = rounded_exponent >= INFINITE;
-  // Nothing is left: +0 of a difference. A carry leaves zeros, too.
+  // A difference of nothing is +0.
   wire is_zero = added == 0;
-  wire sum_sign = sign & ~(is_zero & (differ | SIGNED_ZERO == 0)) &
-      (SIGNED_ZERO != 0 | is_normal | (raised != 0));
+  wire sum_sign = sign & ~(is_zero & differ) & (SIGNED_ZERO != 0 | (raised != 0));
   assign sum = is_nan ? {1'b0, {EXPONENT_BITS{1'b1}}, 1'b1, {FRACTION_BITS - 1{1'b0}}} :
       is_infinite | overflows ?
       {is_infinite ? sign : sum_sign, {EXPONENT_BITS{1'b1}}, {FRACTION_BITS{1'b0}}} :
