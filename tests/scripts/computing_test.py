@@ -6,12 +6,13 @@ import shutil
 import tempfile
 import unittest
 
-import in_folder  # noqa: F401, isort: skip (finds the scripts)
+from in_folder import nightly  # isort: skip (finds the scripts)
+import results
 from exploring import measures, space
 from exploring.axes import Axis, of_scene
 from studies import binding_check, energy, stability_table, switching, synthesis, work_precision
 from runs import simulations
-from runs.scenes import find_scene, find_scenes
+from runs.scenes import REPOSITORY, find_scene, find_scenes
 
 
 class Pareto(unittest.TestCase):
@@ -281,6 +282,10 @@ class Stability(unittest.TestCase):
         self.assertEqual(len(rows), 3)
 
 
+HAS_GATES = shutil.which("yosys") and synthesis.OSU018.exists()
+TABLES = REPOSITORY / "traces" / "results"
+
+
 class Synthesis(unittest.TestCase):
     CELLS = """library(of) {
   cell (NAND2X1) { area : 2; pin(Y) { function : "(!(A B))"; timing() { } } }
@@ -352,9 +357,24 @@ class Synthesis(unittest.TestCase):
             self.assertAlmostEqual(got, wanted)
         self.assertEqual(depth_and_area[-7:-3], [100, 400, 200, 800])
 
-    @unittest.skipUnless(
-        shutil.which("yosys") and synthesis.OSU018.exists(), "yosys or osu018 is not installed"
-    )
+    @nightly
+    @unittest.skipUnless(HAS_GATES, "yosys or osu018 is not installed")
+    def test_the_table_is_of_these_sources(self):
+        table = results.read_rows(TABLES, "synthesis")
+        wanted = {
+            (row["module"], row["mapped"]): row for row in table if "osu018" in row["library"]
+        }
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            library = synthesis.read_library(synthesis.OSU018, folder)
+            for module in synthesis.MODULES:
+                gates = synthesis.in_gates(module, folder)
+                for mapping in synthesis.MAPPINGS:
+                    row = synthesis.mapped_to(library, module, gates, mapping, folder).row()
+                    expected = list(wanted[module.name, mapping].values())
+                    self.assertEqual([str(cell) for cell in row], expected)
+
+    @unittest.skipUnless(HAS_GATES, "yosys or osu018 is not installed")
     def test_registers_and_an_adder_in_cells(self):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
