@@ -29,4 +29,5 @@ case "$*" in
   *) echo "usage: test.sh [release|asan|nightly]" >&2; exit 2 ;;
 esac
 scripts/tools.sh
+scripts/tools.sh verilog
 for suite in "${suites[@]}"; do "$suite"; done

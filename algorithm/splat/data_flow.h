@@ -45,7 +45,7 @@ enum class Operation : std::uint8_t {
 struct OperationCounts {
   std::uint32_t multiplies = 0;
   std::uint32_t adds = 0;       // and subtractions
-  std::uint32_t fused = 0;      // adds right behind a multiplication, which they can be fused with
+  std::uint32_t fused = 0;      // adds of a product that nothing else takes: one step with it
   std::uint32_t divisions = 0;  // quotients; by a constant power of two they are multiplies
   std::uint32_t divisors = 0;   // different ones among them
   std::uint32_t square_roots = 0;

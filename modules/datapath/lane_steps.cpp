@@ -36,7 +36,7 @@ class Expansion {
     // Products that a sum behind `last` takes.
     for (std::size_t i = first_; i < last_; ++i) {
       const auto node = static_cast<std::uint32_t>(i);
-      if (is_deferred(node) && !at_[i] && fused_.count(node) == 0) {
+      if (is_deferred(node) && !at_[i] && in_a_sum_.count(node) == 0) {
         static_cast<void>(value_of(node));
       }
     }
@@ -81,7 +81,7 @@ class Expansion {
   }
   Operand product(Operand a, Operand b) { return push(StepBy::kLane, {{0, a}, {1, b}}); }
   Operand sum(Operand a, Operand b) { return push(StepBy::kLane, {{0, a}, {2, b}}); }
-  Operand fused(Operand a, Operand b, Operand c) {
+  Operand multiply_add(Operand a, Operand b, Operand c) {
     return push(StepBy::kLane, {{0, a}, {1, b}, {2, c}});
   }
   Operand look_up(Operand of) { return push(StepBy::kTable, {{0, of}}); }
@@ -120,26 +120,27 @@ class Expansion {
     const bool takes_a = a && (!b || factors_ready(node.a) >= factors_ready(node.b));
     const Operand in_lane = takes_a ? node.a : node.b, addend = takes_a ? node.b : node.a;
     const DataFlow::Node& of = flow_.nodes()[in_lane.of];
-    fused_.insert(in_lane.of);
+    in_a_sum_.insert(in_lane.of);
     const Operand x = value_of(of.a), y = value_of(of.b), z = value_of(addend);
-    return fused(x, y, z);
+    return multiply_add(x, y, z);
   }
 
-  // The reciprocal: r += r (1 - d r), twice; what was taken before `first` comes from outside.
+  // The reciprocal, of products that are not rounded: r += r (1 - d r), twice; what was taken
+  // before `first` comes from outside.
   Operand reciprocal(const DataFlow::Node& node) {
     auto [at, is_new] = reciprocals_.try_emplace(node.first_division);
     if (!is_new) return at->second;
     if (node.first_division < first_) return at->second = push(StepBy::kOutside, {});
     const Operand d = value_of(node.b);
     Operand r = look_up(d);
-    for (int i = 0; i < 2; ++i) r = fused(r, fused(d, r, literal(1)), r);
+    for (int i = 0; i < 2; ++i) r = multiply_add(r, multiply_add(d, r, literal(1)), r);
     return at->second = r;
   }
   Operand divided(const DataFlow::Node& node) {
     const Operand r = node.b.is_constant ? literal(0) : reciprocal(node);
     const Operand n = value_of(node.a), d = value_of(node.b);
     const Operand q = product(n, r);
-    return fused(fused(q, d, n), r, q);
+    return multiply_add(multiply_add(q, d, n), r, q);
   }
   // g = x y and h = y / 2, which is a matter of its exponent; twice r = 1/2 - g h, g += g r, h += h
   // r.
@@ -147,21 +148,21 @@ class Expansion {
     Operand h = look_up(x);
     Operand g = product(x, h);
     for (int i = 0; i < 2; ++i) {
-      const Operand r = fused(g, h, literal(0.5F));
-      g = fused(g, r, g);
-      h = fused(h, r, h);
+      const Operand r = multiply_add(g, h, literal(0.5F));
+      g = multiply_add(g, r, g);
+      h = multiply_add(h, r, h);
     }
-    return fused(fused(g, g, x), h, g);
+    return multiply_add(multiply_add(g, g, x), h, g);
   }
   // The exponent apart, to float; z / c - 1 = r; log c + k ln2; the cubic in r.
   Operand logarithm(Operand x) {
     const Operand apart = compared(x);
     const Operand row = look_up(apart);
-    const Operand r = fused(apart, row, literal(-1));
-    const Operand log_c = fused(push(StepBy::kLane, {{2, apart}}), literal(0.6931F), row);
+    const Operand r = multiply_add(apart, row, literal(-1));
+    const Operand log_c = multiply_add(push(StepBy::kLane, {{2, apart}}), literal(0.6931F), row);
     const Operand r2 = product(r, r);
-    const Operand high = fused(r, literal(0.3333F), literal(-0.5F));
-    return fused(fused(r2, literal(-0.25F), high), r2, sum(log_c, r));
+    const Operand high = multiply_add(r, literal(0.3333F), literal(-0.5F));
+    return multiply_add(multiply_add(r2, literal(-0.25F), high), r2, sum(log_c, r));
   }
   // The ends of its range; n = x / ln2, rounded; x - n ln2 in two parts; polynomial; 2^n.
   Operand exponential(Operand x) {
@@ -170,9 +171,9 @@ class Expansion {
       steps_.back().answers = true;
     }
     const Operand n = compared_in_a_row(product(x, literal(1.4427F)), kRoundingComparisons);
-    const Operand rest = fused(n, literal(1e-6F), fused(n, literal(0.6931F), x));
-    Operand p = fused(rest, literal(0.001F), literal(0.01F));
-    for (int i = 0; i < 6; ++i) p = fused(p, rest, literal(static_cast<float>(i)));
+    const Operand rest = multiply_add(n, literal(1e-6F), multiply_add(n, literal(0.6931F), x));
+    Operand p = multiply_add(rest, literal(0.001F), literal(0.01F));
+    for (int i = 0; i < 6; ++i) p = multiply_add(p, rest, literal(static_cast<float>(i)));
     return compared(p, n);
   }
 
@@ -239,7 +240,7 @@ class Expansion {
   const OperationLatencies latencies_;
   std::map<std::uint32_t, std::uint32_t> comes_with_;
   std::vector<std::optional<Operand>> at_;        // [node]: its value
-  std::set<std::uint32_t> fused_;                 // products in the lane of a sum
+  std::set<std::uint32_t> in_a_sum_;              // products in the lane of a sum
   std::map<std::uint32_t, Operand> reciprocals_;  // [first division]
   std::vector<LaneStep> steps_;
   std::vector<std::uint32_t> ready_;  // [step], with lanes for all

@@ -1,9 +1,11 @@
 // Cycles and parts of a datapath that a computation takes: by its counts, and step by step.
 //
-// A lane is one multiplier followed by one adder, fully pipelined: it starts one multiply-add a
-// cycle. Operations without hardware of their own are made of such steps. A comparator's operation
-// and a look-up take a cycle each. An answer of a comparison is no value: where it selects, it is
-// the write enable of the value computed beside it, and is there before that is.
+// A lane is one multiplier followed by one adder, fully pipelined (rtl/README.md): it starts one
+// multiply-add a cycle. It adds to the rounded product, as the source does, or to the whole
+// product, as quotients and roots need. Operations without hardware of their own are made of such
+// steps. A comparator's operation and a look-up take a cycle each. An answer of a comparison is no
+// value: where it selects, it is the write enable of the value computed beside it, and is there
+// before that is.
 #pragma once
 
 #include <cstddef>
@@ -17,16 +19,17 @@ namespace sgs {
 
 // Multiply-accumulates of operations that a lane has no hardware for. Each starts from a table of 8
 // bits, which two steps of Newton's iteration make 24 and more. It ends with the exact remainder,
-// so that the result is the correctly rounded one that the source computes with (Markstein, "IA-64
-// and Elementary Functions", 2000; Goldschmidt's form for the root).
+// of a product that is not rounded. So the result is the correctly rounded one that the source
+// computes with (Markstein, "IA-64 and Elementary Functions", 2000; Goldschmidt's form for the
+// root).
 constexpr std::uint32_t kReciprocalMacs = 4;  // e = 1 - d r, r += r e; twice
 constexpr std::uint32_t kQuotientMacs = 3;    // q = n r, rest = n - d q, q += rest r
 constexpr std::uint32_t kSquareRootMacs = 9;  // g = x y; 2 (r = 1/2 - g h, g += g r, h += h r);
                                               // rest = x - g g, g += rest h
-// The routine of the C library (16 intervals): exponent to float, z / c - 1 by table, log c + k
-// ln2, r^2, and a cubic in r of 4.
+// As the routine of the C library (16 intervals), which has double precision: exponent to float,
+// z / c - 1 by table, log c + k ln2, r^2, and a cubic in r of 4.
 constexpr std::uint32_t kLogarithmMacs = 8;
-// exp_of in scalar.h: x / ln2 1, x - n ln2 2, polynomial 7.
+// exp_of in scalar.h, products rounded: x / ln2 1, x - n ln2 2, polynomial 7.
 constexpr std::uint32_t kExponentialMacs = 10;
 
 // Lane cycles of a computation. An add is free where it takes a product that nothing else takes:
@@ -62,10 +65,10 @@ constexpr std::uint32_t comparisons(const OperationCounts& c) {
          c.index_adds;
 }
 
-// Cycles from the operands to the result. Generated fused multiply-adders of single precision at
-// about 1 GHz have 3 to 5 stages (Galal and Horowitz, "Energy-Efficient Floating-Point Unit
-// Design", IEEE Transactions on Computers, 2011); in half precision the multiplier's tree and the
-// shifts are half as deep.
+// Cycles from the operands to the result. Generated multiply-adders of single precision, which
+// round once, have 3 to 5 stages at about 1 GHz (Galal and Horowitz, "Energy-Efficient
+// Floating-Point Unit Design", IEEE Transactions on Computers, 2011). In half precision the
+// multiplier's tree and the shifts are half as deep.
 struct OperationLatencies {
   std::uint32_t lane = 3, comparator = 1, look_up = 1;
 };

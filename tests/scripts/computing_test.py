@@ -2,15 +2,17 @@
 
 import math
 import pathlib
+import shutil
 import tempfile
 import unittest
 
-import in_folder  # noqa: F401, isort: skip (finds the scripts)
+from in_folder import nightly  # isort: skip (finds the scripts)
+import tables
 from exploring import measures, space
 from exploring.axes import Axis, of_scene
-from studies import binding_check, energy, stability_table, work_precision
+from studies import binding_check, energy, stability_table, switching, synthesis, work_precision
 from runs import front, simulations
-from runs.scenes import find_scene, find_scenes
+from runs.scenes import REPOSITORY, find_scene, find_scenes
 
 
 class Pareto(unittest.TestCase):
@@ -306,6 +308,129 @@ class Stability(unittest.TestCase):
         rows = stability_table.place_rows(self.STUDY)
         self.assertEqual(rows[1][5:], (1000, 3e-3, None, 0.1, None))
         self.assertEqual(len(rows), 3)
+
+
+HAS_GATES = shutil.which("yosys") and synthesis.OSU018.exists()
+TABLES = REPOSITORY / "traces" / "results"
+
+
+class Synthesis(unittest.TestCase):
+    CELLS = """library(of) {
+  cell (NAND2X1) { area : 2; pin(Y) { function : "(!(A B))"; timing() { } } }
+  cell ("clkinv_1") {
+    area : 1;
+  }
+}
+"""
+    STAGE = synthesis.Module("32 register bits", "stage", "register_bit", 32, ("WIDTH 32",))
+
+    def test_cells_of_a_library(self):
+        found = {name: self.CELLS[a:b] for name, a, b in synthesis.cells_of(self.CELLS)}
+        self.assertEqual(list(found), ["NAND2X1", "clkinv_1"])
+        self.assertEqual(synthesis.area_of(found["NAND2X1"], "NAND2X1"), 2)
+        self.assertNotIn("clkinv_1", found["NAND2X1"])
+
+    def test_gates_switch(self):
+        """x = not (a b), y = x or a but not both, held in a register: nets' values and changes by hand."""
+        nand = switching.cell_of(
+            "pin(A) { capacitance : 1; } pin(B) { capacitance : 1; } "
+            'pin(Y) { function : "(A B)\'"; internal_power() { values ("2, 2"); } }'
+        )
+        either = switching.cell_of(
+            'pin(A) { capacitance : 1; } pin(B) { capacitance : 1; } pin(Y) { function : "A^B"; }'
+        )
+        register = switching.register_of(
+            "ff (IQ) { } pin(D) { direction : input; capacitance : 4; } pin(Q) { direction : output; }"
+        )
+
+        def gate(kind: str, **pins: int) -> dict:
+            return {"type": kind, "connections": {pin: [bit] for pin, bit in pins.items()}}
+
+        cells = {
+            "one": gate("XOR", A=4, B=1, Y=5),
+            "nand": gate("NAND", A=1, B=2, Y=4),
+            "held": gate("$_DFF_P_", D=5, Q=6, C=3),
+        }
+        netlist = switching.netlist_of({"cells": cells}, {"NAND": nand, "XOR": either}, register)
+        values = netlist.values({1: 0b0110, 2: 0b1010, 3: 0}, 4)
+        self.assertEqual((values[4], values[5], values[6]), (0b1101, 0b1011, 0b0110))
+        settled = netlist.changes(values, 4, False)
+        self.assertEqual([settled[bit] for bit in (1, 2, 4, 5, 6)], [2, 3, 2, 2, 2])
+        # At first a rises before x falls, and y falls for a while.
+        glitching = netlist.changes(values, 4, True)
+        self.assertEqual([glitching[bit] for bit in (1, 2, 4, 5, 6)], [2, 3, 2, 4, 2])
+        # a drives two inputs, b and x one, y the register; a change of x takes 2 pJ within.
+        self.assertAlmostEqual(
+            netlist.pj_a_cycle(settled, 4, 1.0), (2 * 2 + 3 + 2 + 4 * 2) / 2 / 3 + 2 * 2 / 3
+        )
+
+    def test_a_library_without_a_nand_is_refused(self):
+        with tempfile.TemporaryDirectory() as name:
+            path = pathlib.Path(name) / "of.lib"
+            path.write_text(self.CELLS.replace("NAND2X1", "NOR2X1"))
+            with self.assertRaisesRegex(ValueError, "of.lib: no NAND2, expected a library of cel"):
+                synthesis.read_library(path, pathlib.Path(name))
+
+    def test_at_32_nm_the_least_depth_is_typical_and_the_most_slow(self):
+        mapped = [
+            synthesis.Mapped("a", self.STAGE, "small", 100, 32, 90, 1, (0, 0), (100, 2 * 100)),
+            synthesis.Mapped("a", self.STAGE, "fast", 200, 32, 20, 1, (0, 0), (200, 2 * 200)),
+            synthesis.Mapped("b", self.STAGE, "fast", 400, 32, 45, 1, (0, 0), (400, 2 * 400)),
+        ]
+        name, bits, least, most, *depth_and_area = synthesis.node_row(self.STAGE, mapped)
+        self.assertEqual((name, bits, least, most), ("32 register bits", 32, 100, 400))
+        nand2 = 0.798 * 1024 / 2025
+        expected = (20, 45, 25 * 0.01152, 50 * 0.016, 100 * nand2, 200 * nand2 / 0.75)
+        for got, wanted in zip(depth_and_area, (*expected, 400 * nand2 / 0.65)):
+            self.assertAlmostEqual(got, wanted)
+        self.assertEqual(depth_and_area[-7:-3], [100, 400, 200, 800])
+
+    @nightly
+    @unittest.skipUnless(HAS_GATES, "yosys or osu018 is not installed")
+    def test_the_table_is_of_these_sources(self):
+        table = tables.read_rows(TABLES, "synthesis")
+        wanted = {
+            (row["module"], row["mapped"]): row for row in table if "osu018" in row["library"]
+        }
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            library = synthesis.read_library(synthesis.OSU018, folder)
+            for module in synthesis.MODULES:
+                gates = synthesis.in_gates(module, folder)
+                for mapping in synthesis.MAPPINGS:
+                    row = synthesis.mapped_to(library, module, gates, mapping, folder).row()
+                    expected = list(wanted[module.name, mapping].values())
+                    self.assertEqual([str(cell) for cell in row], expected)
+
+    @unittest.skipUnless(HAS_GATES, "yosys or osu018 is not installed")
+    def test_registers_and_an_adder_in_cells(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            library = synthesis.read_library(synthesis.OSU018, folder)
+            # A flip-flop of this library has four times the area of its NAND2.
+            self.assertEqual(library.register_um2, 4 * library.nand2_um2)
+            # 0.18 um: 65 to 90 ps by the rule of the study.
+            self.assertGreater(library.fo4_ps, 60)
+            self.assertLess(library.fo4_ps, 100)
+            gates = synthesis.in_gates(self.STAGE, folder)
+            registers = synthesis.mapped_to(library, self.STAGE, gates, "small", folder)
+            self.assertEqual(
+                (registers.register_bits, registers.nand2, registers.fo4), (32, 128, 0)
+            )
+            # Half of its bits change in a cycle.
+            expected = 16 * library.register.pj
+            self.assertAlmostEqual(registers.pj[0], registers.pj[1])
+            self.assertGreater(registers.pj[0], 0.9 * expected)
+            adder = synthesis.Module("adder", "comparator", "comparator", 1, ("HAS 4",))
+            gates = synthesis.in_gates(adder, folder)
+            small, fast = (
+                synthesis.mapped_to(library, adder, gates, mapping, folder)
+                for mapping in synthesis.MAPPINGS
+            )
+            self.assertGreater(small.pj[1], small.pj[0])
+            self.assertEqual(small.register_bits, 0)
+            self.assertGreater(small.nand2, 32 * 4)
+            self.assertLess(fast.fo4, small.fo4)
 
 
 class Reports(unittest.TestCase):

@@ -27,6 +27,7 @@ BUDGETS = {
     "algorithm/vq/README.md": 500,
     "modules/README.md": 1200,
     "modules/datapath/README.md": 600,
+    "modules/datapath/rtl/README.md": 600,
     "modules/dram/README.md": 1200,
     "modules/gscore/README.md": 1500,
     "modules/streaminggs/README.md": 2500,
