@@ -55,12 +55,17 @@ Json camera_of(const Camera& camera) {
   const glm::dmat3& r = camera.world_from_camera;
   Json rotation = Json::array();
   for (int row = 0; row < 3; ++row) rotation.push_back({r[0][row], r[1][row], r[2][row]});
-  return {{"id", camera.id},
-          {"img_name", camera.name},
-          {"fx_px", camera.focal_x},
-          {"fy_px", camera.focal_y},
-          {"position", {camera.position.x, camera.position.y, camera.position.z}},
-          {"rotation", rotation}};
+  Json out = {{"id", camera.id},
+              {"img_name", camera.name},
+              {"fx_px", camera.focal_x},
+              {"fy_px", camera.focal_y},
+              {"position", {camera.position.x, camera.position.y, camera.position.z}},
+              {"rotation", rotation}};
+  if (camera.principal_offset != glm::dvec2(0)) {
+    out["cx_px"] = 0.5 * camera.width + camera.principal_offset.x;
+    out["cy_px"] = 0.5 * camera.height + camera.principal_offset.y;
+  }
+  return out;
 }
 
 Json error_parts_of(const OrderLoss& loss) {

@@ -92,6 +92,7 @@ std::vector<Camera> frames_along(const CameraPath& path, std::uint32_t count) {
     Camera frame = camera_between(a, b, t);
     frame.focal_x = (1 - t) * a.focal_x + t * b.focal_x;
     frame.focal_y = (1 - t) * a.focal_y + t * b.focal_y;
+    frame.principal_offset = (1 - t) * a.principal_offset + t * b.principal_offset;
     frame.id = static_cast<int>(i);
     frame.name = fmt::format("frame_{}", i);
     frames.push_back(frame);
