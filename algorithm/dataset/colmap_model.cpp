@@ -29,7 +29,7 @@ struct Place {
 };
 
 constexpr std::array<const char*, 2> kUsual = {"sparse/0", "sparse"};
-constexpr std::array<const char*, 3> kAside = {"colmap/sparse/0", "colmap/sparse", "."};
+constexpr std::array<const char*, 4> kAside = {"colmap/sparse/0", "colmap/sparse", "0", "."};
 
 template <std::size_t kCount>
 Place place_in(const fs::path& folder, const std::array<const char*, kCount>& places) {
@@ -72,6 +72,11 @@ StatedDataset read_colmap(const std::string& folder) {
         (place.folder / (name + std::string(place.binary ? ".bin" : ".txt"))).string());
   }
   dataset.read_points = [place] { return points_of(place); };
+  // COLMAP looks for no features there; whether training is to leave it out nobody says.
+  std::error_code unknown;
+  if (fs::is_directory(fs::path(folder) / "masks", unknown)) {
+    dataset.unread_keys["the folder masks"] = 1;
+  }
   for (const ColmapImage& image : model.images) {
     const auto camera = model.cameras.find(image.camera_id);
     if (camera == model.cameras.end()) {

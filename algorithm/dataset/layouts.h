@@ -15,7 +15,7 @@ namespace sgs {
 // is missing or damaged, a value that is not finite or means nothing, a view without an image.
 
 // A sparse model, binary before text, in sparse/0 or sparse; images in images. Models in
-// colmap/sparse/0 or in the folder itself lie beside other layouts too: holds_colmap_aside().
+// colmap/sparse/0, in 0 or in the folder itself lie beside other layouts too: holds_colmap_aside().
 bool holds_colmap(const std::string& folder);
 bool holds_colmap_aside(const std::string& folder);
 StatedDataset read_colmap(const std::string& folder);

@@ -64,7 +64,8 @@ ImageHeader read_jpeg_header(const std::string& path);
 // WebP pictures.
 
 // Reads one that does not move, lossy or lossless, to values in [0, 1] as stored. Throws
-// InputError: not a WebP, an animation, cut off or damaged.
+// InputError: not a WebP, an animation, cut off or damaged, or far shorter than its size in pixels
+// asks for.
 RgbaImage read_webp(const std::string& path);
 
 // Throws InputError as read_webp does, but looks at no pixel.

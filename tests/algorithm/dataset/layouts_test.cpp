@@ -441,4 +441,9 @@ TEST_CASE("dataset: names that say nothing here are counted") {
   REQUIRE(dataset.notes.size() == 1);
   CHECK(dataset.notes[0].first == "not read");
   CHECK(dataset.notes[0].second == "aabb_scale, applied_transform, sharpness (10 times)");
+  const ScratchFolder colmap;
+  write_colmap_text(colmap.path(""), made_scene());
+  write_file(colmap.path(""), "masks/shot_00.png.png", "");
+  REQUIRE(open_dataset(colmap.path("")).notes.size() == 1);
+  CHECK(open_dataset(colmap.path("")).notes[0].second == "the folder masks");
 }

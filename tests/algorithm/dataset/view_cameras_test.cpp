@@ -69,7 +69,7 @@ TEST_CASE("view cameras: of all layouts, as files and as folders, without their 
     const char* images = "images";
   };
   for (const Row& row :
-       std::vector<Row>{{write_colmap_binary, {"", "sparse/0", "sparse/0/images.bin"}},
+       std::vector<Row>{{write_colmap_binary, {"", "sparse", "sparse/0", "sparse/0/images.bin"}},
                         {write_colmap_text, {"", "sparse/0", "sparse/0/cameras.txt"}},
                         {write_transforms, {"", "transforms.json"}},
                         {write_cameras_json, {"", "cameras.json"}},

@@ -72,6 +72,10 @@ TEST_CASE(
       scratch.write("t.tif", tiff_bytes(kWidth, kHeight, picture(), {8, false, true, 6}));
   CHECK_THAT(input_error_of([&] { read_photograph_header(turned); }),
              Contains("t.tif: got orientation 6, expected 1"));
+  std::string vast = webp_bytes(kWidth, kHeight, picture());
+  vast.replace(21, 4, std::string("\xff\xff\xff\x1f", 4));  // 14 bits for each side
+  CHECK_THAT(input_error_of([&] { read_photograph_header(scratch.write("v.webp", vast)); }),
+             Contains("v.webp: got ") && Contains("expected 16384x16384 pixels"));
   std::string large = tiff_bytes(kWidth, kHeight, picture());
   for (std::size_t at = 0; at + 12 <= large.size(); ++at) {  // the entry of its width
     if (large.compare(at, 4, std::string("\x00\x01\x03\x00", 4)) != 0 &&
