@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "algorithm/dataset/layouts.h"
-#include "algorithm/dataset/view_image.h"
 #include "algorithm/scene/camera.h"
 
 namespace sgs {
@@ -23,20 +22,21 @@ bool holds_cameras_json(const std::string& folder) {
 
 StatedDataset read_cameras_json(const std::string& folder) {
   const std::string path = file_in(folder).string();
-  const std::vector<std::string> places = {(fs::path(folder) / "images").string(), folder};
   StatedDataset dataset;
   dataset.files = {path};
   for (const Camera& camera : read_cameras(path)) {
-    const std::string where = fmt::format("{}: camera {}", path, dataset.views.size());
-    const FoundImage found = find_image(places, camera.name, where);
-    const Intrinsics intrinsics = {camera.width, camera.height, camera.focal_x, camera.focal_y, {}};
-    dataset.views.push_back({where,
-                             view_name(camera.name),
-                             found.path,
-                             found.header,
-                             intrinsics,
-                             {camera.position, camera.world_from_camera},
-                             Split::kTrain});
+    StatedView view;
+    view.where = fmt::format("{}: camera {}", path, dataset.views.size());
+    view.folders = {"images", ""};
+    view.image = camera.name;
+    view.intrinsics.width = camera.width;
+    view.intrinsics.height = camera.height;
+    view.intrinsics.focal_x = camera.focal_x;
+    view.intrinsics.focal_y = camera.focal_y;
+    view.intrinsics.centre_x = 0.5 * camera.width + camera.principal_offset.x;
+    view.intrinsics.centre_y = 0.5 * camera.height + camera.principal_offset.y;
+    view.pose = {camera.position, camera.world_from_camera};
+    dataset.views.push_back(std::move(view));
   }
   return dataset;
 }

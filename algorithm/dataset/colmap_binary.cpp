@@ -1,30 +1,16 @@
 // The little-endian form of colmap_model.h.
 #include <fmt/format.h>
 
-#include <array>
 #include <cstring>
 #include <filesystem>
 
-#include "algorithm/dataset/colmap_model.h"
+#include "algorithm/dataset/colmap_lens.h"
 #include "algorithm/dataset/stated_view.h"
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_file.h"
 
 namespace sgs {
 namespace {
-
-// The models by their number in the file.
-constexpr std::array<const char*, 11> kModels = {"SIMPLE_PINHOLE",
-                                                 "PINHOLE",
-                                                 "SIMPLE_RADIAL",
-                                                 "RADIAL",
-                                                 "OPENCV",
-                                                 "OPENCV_FISHEYE",
-                                                 "FULL_OPENCV",
-                                                 "FOV",
-                                                 "SIMPLE_RADIAL_FISHEYE",
-                                                 "RADIAL_FISHEYE",
-                                                 "THIN_PRISM_FISHEYE"};
 
 // The bytes of a file from front to back.
 class ByteReader {
@@ -95,20 +81,19 @@ class ByteReader {
 };
 
 void read_cameras(ByteReader& file, ColmapModel& model) {
-  constexpr std::uint64_t kLeastBytes = 4 + 4 + 8 + 8 + 3 * 8;
+  constexpr std::uint64_t kLeastBytes = 4 + 4 + 8 + 8 + 2 * 8;
   const std::uint64_t count = file.count(kLeastBytes, "cameras");
   for (std::uint64_t i = 0; i < count; ++i) {
-    const std::string where = file.entry("camera", i);
+    ColmapCamera camera;
+    camera.where = file.entry("camera", i);
     const auto id = file.read<std::uint32_t>("a camera id");
-    const auto kind = file.read<std::int32_t>("a camera model");
-    const std::string name = kind >= 0 && kind < static_cast<int>(kModels.size())
-                                 ? kModels[static_cast<std::size_t>(kind)]
-                                 : fmt::format("number {}", kind);
-    std::vector<double> parameters(static_cast<std::size_t>(colmap_parameter_count(name, where)));
-    const auto width = file.read<std::uint64_t>("a width");
-    const auto height = file.read<std::uint64_t>("a height");
-    for (double& parameter : parameters) parameter = file.read<double>("a camera's parameters");
-    add_colmap_camera(model, id, colmap_intrinsics(width, height, parameters, where), where);
+    camera.model = colmap_model_name(file.read<std::int32_t>("a camera model"), camera.where);
+    camera.width = file.read<std::uint64_t>("a width");
+    camera.height = file.read<std::uint64_t>("a height");
+    for (int left = *colmap_parameter_count(camera.model); left > 0; --left) {
+      camera.parameters.push_back(file.read<double>("a camera's parameters"));
+    }
+    add_colmap_camera(model, id, std::move(camera));
   }
   file.expect_end();
 }
@@ -136,11 +121,12 @@ void read_images(ByteReader& file, ColmapModel& model) {
   file.expect_end();
 }
 
-void read_points(ByteReader& file, ColmapModel& model) {
+std::vector<SfmPoint> read_points(ByteReader& file) {
   constexpr std::uint64_t kLeastBytes = 8 + 3 * 8 + 3 + 8 + 8;
   constexpr std::uint64_t kTrackBytes = 4 + 4;
   const std::uint64_t count = file.count(kLeastBytes, "points");
-  model.points.reserve(count);
+  std::vector<SfmPoint> points;
+  points.reserve(count);
   for (std::uint64_t i = 0; i < count; ++i) {
     file.read<std::uint64_t>("a point id");
     const glm::dvec3 position = file.triple("a position");
@@ -149,24 +135,29 @@ void read_points(ByteReader& file, ColmapModel& model) {
                blue = file.read<std::uint8_t>("a colour");
     file.read<double>("an error");
     file.skip(kTrackBytes * file.count(kTrackBytes, "images of a point"));
-    model.points.push_back(sfm_point(position, {red, green, blue}, file.entry("point", i)));
+    points.push_back(sfm_point(position, {red, green, blue}, file.entry("point", i)));
   }
   file.expect_end();
+  return points;
+}
+
+ByteReader bytes_of(const std::string& folder, const char* name) {
+  return ByteReader((std::filesystem::path(folder) / name).string());
 }
 
 }  // namespace
 
 ColmapModel read_colmap_binary(const std::string& folder) {
-  const auto open = [&](const char* name) {
-    return ByteReader((std::filesystem::path(folder) / name).string());
-  };
   ColmapModel model;
-  ByteReader cameras = open("cameras.bin"), images = open("images.bin"),
-             points = open("points3D.bin");
+  ByteReader cameras = bytes_of(folder, "cameras.bin"), images = bytes_of(folder, "images.bin");
   read_cameras(cameras, model);
   read_images(images, model);
-  read_points(points, model);
   return model;
+}
+
+std::vector<SfmPoint> read_colmap_points_binary(const std::string& folder) {
+  ByteReader points = bytes_of(folder, "points3D.bin");
+  return read_points(points);
 }
 
 }  // namespace sgs

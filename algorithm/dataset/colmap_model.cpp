@@ -1,46 +1,20 @@
-// The checks that text and binary models share, and COLMAP's layout (layouts.h).
+// What text and binary models share, and COLMAP's layout (layouts.h).
 #include "algorithm/dataset/colmap_model.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <array>
 #include <filesystem>
 
+#include "algorithm/dataset/colmap_lens.h"
 #include "algorithm/dataset/layouts.h"
-#include "algorithm/dataset/view_image.h"
 #include "algorithm/files/input_error.h"
 
 namespace sgs {
 
-int colmap_parameter_count(std::string_view model, const std::string& where) {
-  if (model == "SIMPLE_PINHOLE") return 3;  // f, c_x, c_y
-  if (model == "PINHOLE") return 4;         // f_x, f_y, c_x, c_y
-  throw InputError(fmt::format(
-      "{}: got the camera model {}, expected PINHOLE or SIMPLE_PINHOLE (COLMAP's image_undistorter "
-      "makes them)",
-      where, model));
-}
-
-Intrinsics colmap_intrinsics(std::uint64_t width, std::uint64_t height,
-                             const std::vector<double>& parameters, const std::string& where) {
-  if (width < 1 || height < 1 || width > INT32_MAX || height > INT32_MAX) {
-    throw InputError(fmt::format("{}: size: got {}x{}, expected px from 1", where, width, height));
-  }
-  for (const double parameter : parameters) {
-    if (!std::isfinite(parameter)) {
-      throw InputError(
-          fmt::format("{}: parameter: got {}, expected finite numbers", where, parameter));
-    }
-  }
-  const bool one_focal = parameters.size() == 3;
-  const std::size_t centre = one_focal ? 1 : 2;
-  return {static_cast<int>(width), static_cast<int>(height), parameters[0],
-          parameters[one_focal ? 0 : 1], glm::dvec2(parameters[centre], parameters[centre + 1])};
-}
-
-void add_colmap_camera(ColmapModel& model, std::uint32_t id, const Intrinsics& camera,
-                       const std::string& where) {
-  if (!model.cameras.emplace(id, camera).second) {
+void add_colmap_camera(ColmapModel& model, std::uint32_t id, ColmapCamera camera) {
+  const std::string where = camera.where;
+  if (!model.cameras.emplace(id, std::move(camera)).second) {
     throw InputError(fmt::format("{}: camera id {} a second time, expected each once", where, id));
   }
 }
@@ -54,41 +28,68 @@ struct Place {
   bool binary = false;
 };
 
-Place place_of_model(const fs::path& folder) {
+constexpr std::array<const char*, 2> kUsual = {"sparse/0", "sparse"};
+constexpr std::array<const char*, 4> kAside = {"colmap/sparse/0", "colmap/sparse", "0", "."};
+
+template <std::size_t kCount>
+Place place_in(const fs::path& folder, const std::array<const char*, kCount>& places) {
   std::error_code unknown;
-  for (const char* below : {"sparse/0", "sparse"}) {
+  for (const char* below : places) {
     for (const bool binary : {true, false}) {
-      const fs::path cameras = folder / below / (binary ? "cameras.bin" : "cameras.txt");
-      if (fs::exists(cameras, unknown)) return {folder / below, binary};
+      const fs::path model = (folder / below).lexically_normal();
+      const char* extension = binary ? ".bin" : ".txt";
+      if (fs::exists(model / (std::string("cameras") + extension), unknown)) return {model, binary};
     }
   }
   return {};
 }
 
+std::vector<SfmPoint> points_of(const Place& place) {
+  std::error_code unknown;
+  const std::string folder = place.folder.string();
+  const bool own =
+      fs::exists(place.folder / (place.binary ? "points3D.bin" : "points3D.txt"), unknown);
+  if (const auto points = points_file_in(folder); points && !own) return read_points_ply(*points);
+  return place.binary ? read_colmap_points_binary(folder) : read_colmap_points_text(folder);
+}
+
 }  // namespace
 
-bool holds_colmap(const std::string& folder) { return !place_of_model(folder).folder.empty(); }
+bool holds_colmap(const std::string& folder) { return !place_in(folder, kUsual).folder.empty(); }
+
+bool holds_colmap_aside(const std::string& folder) {
+  return !place_in(folder, kAside).folder.empty();
+}
 
 StatedDataset read_colmap(const std::string& folder) {
-  const Place place = place_of_model(folder);
-  ColmapModel model = place.binary ? read_colmap_binary(place.folder.string())
-                                   : read_colmap_text(place.folder.string());
+  Place place = place_in(folder, kUsual);
+  if (place.folder.empty()) place = place_in(folder, kAside);
+  const ColmapModel model = place.binary ? read_colmap_binary(place.folder.string())
+                                         : read_colmap_text(place.folder.string());
   StatedDataset dataset;
   for (const char* name : {"cameras", "images", "points3D"}) {
     dataset.files.push_back(
         (place.folder / (name + std::string(place.binary ? ".bin" : ".txt"))).string());
   }
-  dataset.points = std::move(model.points);
-  const std::string images = (fs::path(folder) / "images").string();
+  dataset.read_points = [place] { return points_of(place); };
+  // COLMAP looks for no features there; whether training is to leave it out nobody says.
+  std::error_code unknown;
+  if (fs::is_directory(fs::path(folder) / "masks", unknown)) {
+    dataset.unread_keys["the folder masks"] = 1;
+  }
   for (const ColmapImage& image : model.images) {
     const auto camera = model.cameras.find(image.camera_id);
     if (camera == model.cameras.end()) {
       throw InputError(fmt::format("{}: camera id {}: no such camera, expected one of {} cameras",
                                    image.where, image.camera_id, model.cameras.size()));
     }
-    const FoundImage found = find_image({images}, image.name, image.where);
-    dataset.views.push_back({image.where, view_name(image.name), found.path, found.header,
-                             camera->second, image.pose, Split::kTrain});
+    StatedView view;
+    view.where = image.where;
+    view.folders = {"images"};
+    view.image = image.name;
+    view.intrinsics = colmap_intrinsics(camera->second);
+    view.pose = image.pose;
+    dataset.views.push_back(std::move(view));
   }
   return dataset;
 }

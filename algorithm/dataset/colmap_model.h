@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/ext/vector_uint3_sized.hpp>
-#include <glm/vec3.hpp>
 #include <map>
 #include <string>
 #include <string_view>
@@ -13,6 +11,14 @@
 
 namespace sgs {
 
+// A camera as the file has it: whether it can be used is asked of those that images have.
+struct ColmapCamera {
+  std::string where;  // file and entry, for messages
+  std::string model;
+  std::uint64_t width = 0, height = 0;
+  std::vector<double> parameters;  // as many as the model has
+};
+
 struct ColmapImage {
   std::string where;  // file and entry, for messages
   std::string name;   // path below the folder of images
@@ -21,29 +27,22 @@ struct ColmapImage {
 };
 
 struct ColmapModel {
-  std::map<std::uint32_t, Intrinsics> cameras;  // by their id
+  std::map<std::uint32_t, ColmapCamera> cameras;  // by their id
   std::vector<ColmapImage> images;
-  std::vector<SfmPoint> points;
 };
 
-// Reads cameras.bin, images.bin and points3D.bin of `folder`. Throws InputError with file, entry or
-// byte, what was found and what was expected: also counts that the file cannot hold, bytes after
-// the last record, camera models but PINHOLE and SIMPLE_PINHOLE, an id twice.
+// Reads cameras.bin and images.bin of `folder`, or points3D.bin. Both throw InputError with file,
+// entry or byte, what was found and what was expected: also counts that the file cannot hold, bytes
+// after the last record, a number of a camera model that COLMAP has not, an id twice.
 ColmapModel read_colmap_binary(const std::string& folder);
+std::vector<SfmPoint> read_colmap_points_binary(const std::string& folder);
 
-// The same of cameras.txt, images.txt and points3D.txt.
+// The same of cameras.txt and images.txt, and points3D.txt. The line of points behind an image may
+// be missing: whatever stands there is points, another image, or refused.
 ColmapModel read_colmap_text(const std::string& folder);
+std::vector<SfmPoint> read_colmap_points_text(const std::string& folder);
 
-// Both make their models by these. All throw InputError that begins with `where`.
-
-// Numbers that a camera of this model has. Refuses models other than PINHOLE and SIMPLE_PINHOLE.
-int colmap_parameter_count(std::string_view model, const std::string& where);
-
-// parameters: as many as the model has. Refuses sizes that are no number of px from 1.
-Intrinsics colmap_intrinsics(std::uint64_t width, std::uint64_t height,
-                             const std::vector<double>& parameters, const std::string& where);
-
-void add_colmap_camera(ColmapModel& model, std::uint32_t id, const Intrinsics& camera,
-                       const std::string& where);
+// Both make their models by this. Throws InputError that begins with camera.where.
+void add_colmap_camera(ColmapModel& model, std::uint32_t id, ColmapCamera camera);
 
 }  // namespace sgs

@@ -1,12 +1,15 @@
 // Photographs with the cameras that took them: what a scene is trained from.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "algorithm/dataset/undistortion.h"
 #include "algorithm/image/image.h"
 #include "algorithm/scene/camera.h"
 #include "algorithm/scene/describe.h"
@@ -20,15 +23,19 @@ enum class SplitBy { kDataset, kEveryEighth };
 
 struct DatasetView {
   std::string name;        // path of the image as the data set has it, without extension
-  std::string image_path;  // PNG or JPEG
+  std::string image_path;  // PNG, JPEG, WebP or TIFF
+  std::string mask_path;   // black where a pixel counts for nothing; empty where all count
   ImageHeader file;        // as the image lies in its file
   // The camera of the used part of the file, whatever size the data set states, as many times
   // smaller as the data set was opened. camera.id is the view's number in Dataset::views,
   // camera.name its name.
   Camera camera;
   // The used part of the file: all but the pixels that are cut off to have the principal point in
-  // the middle. Its top left pixel and its width and height.
+  // the middle. Its top left pixel and its width and height; through a lens, those of the picture
+  // that is made of it.
   glm::ivec2 crop_px{0}, used_px{0};
+  LensProjection taken;
+  double seen = 1;  // share of the file's pixels that are used
   Split split = Split::kTrain;
 };
 
@@ -48,6 +55,20 @@ struct Dataset {
   int left_out = 0;              // views that are neither for training nor for testing: validation
   std::vector<SfmPoint> points;  // empty where the layout brings none
   std::optional<Extent> bounds;  // region to be seen, world frame, where the layout states it
+  // What else a user wants to know of the reading: lenses, masks, names that say nothing. Each a
+  // title and a sentence.
+  std::vector<std::pair<std::string, std::string>> notes;
+};
+
+// The choices of who opens a data set.
+struct DatasetOptions {
+  double downscale = 1;  // from 1
+  // A layout by its key: colmap, nerf-synthetic, transforms, cameras or nsvf; empty: the one that
+  // is there.
+  std::string layout;
+  // The folder to take instead of `images`; empty: images, or the one of images_2, images_4 and
+  // images_8 that is there without it.
+  std::string images;
 };
 
 // Numbers of the views of `split`, rising.
@@ -59,7 +80,7 @@ std::vector<int> views_of(const Dataset& dataset, Split split);
 // order of names, from the first, as the original takes them. Throws InputError: no such folder, no
 // layout or more than one (says what was looked for), what the readers in layouts.h and
 // complete_view() refuse, a name twice, no view to train from, a downscale that is not from 1.
-Dataset open_dataset(const std::string& folder, double downscale = 1);
+Dataset open_dataset(const std::string& folder, const DatasetOptions& options = {});
 
 // Throws InputError where there is none, with what was to name them.
 void require_test_views(const Dataset& dataset);
@@ -72,5 +93,10 @@ Camera downscaled_camera(const DatasetView& view, double downscale);
 // InputError as read_photograph() and downscaled_camera() do, and when the file has changed its
 // size since the data set was opened. Several threads may load at once.
 RgbaImage load_view(const DatasetView& view, double downscale = 1);
+
+// For each pixel of load_view()'s image whether it counts: 0 where black of the mask has a part in
+// it. Empty where the view has no mask. Throws InputError as load_view() does, for a mask of
+// another shape than its image, and for one that leaves no pixel.
+std::vector<std::uint8_t> load_mask(const DatasetView& view, double downscale = 1);
 
 }  // namespace sgs

@@ -9,7 +9,6 @@
 #include "algorithm/dataset/layouts.h"
 #include "algorithm/dataset/stated_view.h"
 #include "algorithm/dataset/text_fields.h"
-#include "algorithm/dataset/view_image.h"
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_file.h"
 
@@ -37,7 +36,8 @@ Intrinsics read_intrinsics(const std::string& path) {
   const std::vector<double> n = numbers_in(path);
   Intrinsics intrinsics;
   const auto principal_point = [&](double x, double y) {
-    intrinsics.principal_point = glm::dvec2(x, y);
+    intrinsics.centre_x = x;
+    intrinsics.centre_y = y;
   };
   if (n.size() == 9 || n.size() == 16) {  // a matrix of 3x3 or 4x4
     const std::size_t row = n.size() == 9 ? 3 : 4;
@@ -144,14 +144,14 @@ StatedDataset read_nsvf(const std::string& folder) {
       ++dataset.left_out;
       continue;
     }
-    const FoundImage found = find_image({(root / "rgb").string()}, name, pose);
-    Intrinsics intrinsics = stated;
-    if (stated.width == 0) {
-      intrinsics.width = found.header.width;
-      intrinsics.height = found.header.height;
-    }
-    dataset.views.push_back({pose, name, found.path, found.header, intrinsics, read_pose(pose),
-                             splits.empty() ? Split::kTrain : split->second});
+    StatedView view;
+    view.where = pose;
+    view.folders = {"rgb"};
+    view.image = name;
+    view.intrinsics = stated;
+    view.pose = read_pose(pose);
+    view.split = splits.empty() ? Split::kTrain : split->second;
+    dataset.views.push_back(std::move(view));
   }
   const std::string bounds = (root / "bbox.txt").string();
   std::error_code unknown;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string_view>
 
 #include "algorithm/dataset/layouts.h"
@@ -97,6 +98,15 @@ std::vector<SfmPoint> read_points_ply(const std::string& path) {
     points.push_back(point_of(values, fmt::format("{}: vertex {}", path, i)));
   }
   return points;
+}
+
+std::optional<std::string> points_file_in(const std::string& folder) {
+  for (const char* name : {"points3D.ply", "points3d.ply"}) {
+    const std::filesystem::path path = std::filesystem::path(folder) / name;
+    std::error_code unknown;
+    if (std::filesystem::exists(path, unknown)) return path.string();
+  }
+  return {};
 }
 
 }  // namespace sgs

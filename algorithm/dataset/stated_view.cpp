@@ -26,6 +26,23 @@ void check_finite(const double* values, int count, const std::string& where) {
 
 }  // namespace
 
+Projection projection_of(const Intrinsics& stated, int image_width, int image_height) {
+  Projection out;
+  out.width = stated.width > 0 ? stated.width : image_width;
+  out.height = stated.height > 0 ? stated.height : image_height;
+  const auto focal_of = [](const std::optional<double>& focal, const std::optional<double>& angle,
+                           int size) -> std::optional<double> {
+    if (focal || !angle) return focal;
+    return 0.5 * size / std::tan(0.5 * *angle);
+  };
+  const auto x = focal_of(stated.focal_x, stated.angle_x, out.width);
+  const auto y = focal_of(stated.focal_y, stated.angle_y, out.height);
+  out.focal = {x ? *x : y.value_or(0), y ? *y : x.value_or(0)};
+  out.centre = {stated.centre_x.value_or(0.5 * out.width),
+                stated.centre_y.value_or(0.5 * out.height)};
+  return out;
+}
+
 Pose opencv_pose(const glm::dmat4& world_from_camera, const std::string& where) {
   check_finite(&world_from_camera[0][0], 16, where);
   for (int column = 0; column < 4; ++column) {

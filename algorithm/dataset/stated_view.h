@@ -1,25 +1,41 @@
 // The statements of a data set's files, before images and cameras are brought together.
 #pragma once
 
+#include <functional>
 #include <glm/ext/vector_uint3_sized.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "algorithm/dataset/dataset.h"
+#include "algorithm/dataset/lens.h"
 
 namespace sgs {
 
 struct Intrinsics {
-  int width = 0, height = 0;                  // px, from 1; the image may have another size
-  double focal_x = 0, focal_y = 0;            // px
-  std::optional<glm::dvec2> principal_point;  // px from the top left corner; else the middle
+  int width = 0, height = 0;  // px, from 1; the image may have another size. 0: the image's own
+  // px. Where there is none, angles of the whole sides, radians: one of the four is stated.
+  std::optional<double> focal_x, focal_y, angle_x, angle_y;
+  std::optional<double> centre_x, centre_y;  // principal point, px from the top left corner
+  Lens lens;
 };
+
+// Intrinsics with all said, in px.
+struct Projection {
+  int width = 0, height = 0;
+  glm::dvec2 focal{0.0};
+  glm::dvec2 centre{0.0};
+};
+
+// image_width, image_height: taken where none are stated. What else is not stated: the principal
+// point is in the middle, a focal length as the other one.
+Projection projection_of(const Intrinsics& stated, int image_width, int image_height);
 
 // Axes as in Camera.
 struct Pose {
@@ -28,12 +44,14 @@ struct Pose {
 };
 
 struct StatedView {
-  std::string where;  // file and entry, for messages
-  std::string name, image_path;
-  ImageHeader image;
+  std::string where;                 // file and entry, for messages
+  std::vector<std::string> folders;  // where its image may be, below the data set's folder
+  std::string image, mask;           // names as the file has them; mask: empty where there is none
   Intrinsics intrinsics;
   Pose pose;
   Split split = Split::kTrain;  // where the data set has a split
+  // One angle of all stands for a size that nobody states: its image has the shape of the others'.
+  bool shares_shape = false;
 };
 
 struct StatedDataset {
@@ -42,8 +60,9 @@ struct StatedDataset {
   SplitBy split_by = SplitBy::kEveryEighth;
   std::string tests_from;  // file and entry that name the test views, where there is a split
   int left_out = 0;
-  std::vector<SfmPoint> points;
+  std::function<std::vector<SfmPoint>()> read_points;  // empty where there are none
   std::optional<Extent> bounds;
+  std::map<std::string, int> unread_keys;  // names that say nothing here, and how often they occur
 };
 
 // world_from_camera: a rigid motion, columns as glm has them, of a camera with x right, y down, z

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "algorithm/files/input_error.h"
 
@@ -14,7 +15,16 @@ namespace {
 
 constexpr std::string_view kSpace = " \t\r\n\v\f";
 
+std::optional<double> number_of(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return {};
+  return value;
+}
+
 }  // namespace
+
+bool is_number(std::string_view text) { return number_of(text).has_value(); }
 
 TextFields::TextFields(std::string_view text, std::string where)
     : text_(text), where_(std::move(where)) {
@@ -33,15 +43,22 @@ std::string_view TextFields::word(const char* what) {
   return found;
 }
 
+double TextFields::any_number(const char* what) {
+  const std::string_view found = word(what);
+  const auto value = number_of(found);
+  if (!value)
+    throw InputError(fmt::format("{}: {}: got '{}', expected a number", where_, what, found));
+  return *value;
+}
+
 double TextFields::number(const char* what) {
   const std::string_view found = word(what);
-  double value = 0;
-  const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
-  if (error != std::errc() || end != found.data() + found.size() || !std::isfinite(value)) {
+  const auto value = number_of(found);
+  if (!value || !std::isfinite(*value)) {
     throw InputError(
         fmt::format("{}: {}: got '{}', expected a finite number", where_, what, found));
   }
-  return value;
+  return *value;
 }
 
 std::uint64_t TextFields::whole_number(const char* what, std::uint64_t most) {

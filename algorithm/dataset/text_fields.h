@@ -7,6 +7,9 @@
 
 namespace sgs {
 
+// True for a number as from_chars() reads it, also one that is not finite.
+bool is_number(std::string_view text);
+
 // Fields are separated by white space. All functions throw InputError that begins with `where`.
 class TextFields {
  public:
@@ -16,7 +19,8 @@ class TextFields {
   bool at_end() const { return text_.empty(); }
   // what: what is expected, for messages.
   std::string_view word(const char* what);
-  double number(const char* what);  // finite
+  double number(const char* what);      // finite
+  double any_number(const char* what);  // also inf and nan
   std::uint64_t whole_number(const char* what, std::uint64_t most);
   // Everything that is left, without white space around it.
   std::string_view rest(const char* what);

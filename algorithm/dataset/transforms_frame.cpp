@@ -1,11 +1,10 @@
-// Keys of transforms_frame.h.
+// The keys of a frame.
 #include "algorithm/dataset/transforms_frame.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_json.h"
@@ -52,6 +51,24 @@ std::optional<std::string> TransformsFrame::text(const char* key) const {
   return value->get<std::string>();
 }
 
+bool TransformsFrame::flag(const char* key) const {
+  const Json* value = find(key);
+  if (value == nullptr) return false;
+  if (!value->is_boolean()) fail(key, shown(*value), "true or false");
+  return value->get<bool>();
+}
+
+std::vector<double> TransformsFrame::numbers(const char* key) const {
+  const Json* values = find(key);
+  if (values == nullptr) return {};
+  if (!values->is_array()) fail(key, shown(*values), "an array of numbers");
+  std::vector<double> out;
+  for (const Json& value : *values) {
+    out.push_back(finite(fmt::format("{}[{}]", key, out.size()), value));
+  }
+  return out;
+}
+
 glm::dmat4 TransformsFrame::matrix(const char* key) const {
   const Json* rows = find(key);
   if (rows == nullptr) fail(key, "nothing", "4 rows of 4 numbers");
@@ -69,64 +86,6 @@ glm::dmat4 TransformsFrame::matrix(const char* key) const {
     }
   }
   return columns;
-}
-
-namespace {
-
-void refuse_distortion(const TransformsFrame& frame) {
-  static const std::set<std::string> kUndistorted = {"OPENCV", "PINHOLE", "SIMPLE_PINHOLE",
-                                                     "RADIAL", "SIMPLE_RADIAL"};
-  const auto model = frame.text("camera_model");
-  if (model && kUndistorted.count(*model) == 0) {
-    frame.fail("camera_model", *model, "a pinhole: OPENCV or PINHOLE without distortion");
-  }
-  for (const char* key : {"k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2"}) {
-    const auto value = frame.number(key);
-    if (value && *value != 0) {
-      frame.fail(key, fmt::format("{}", *value), "0: images without distortion");
-    }
-  }
-}
-
-int size_of(const TransformsFrame& frame, const char* key, int of_image) {
-  const auto size = frame.number(key);
-  if (!size) return of_image;
-  if (!(*size >= 1 && *size <= INT32_MAX) || *size != std::floor(*size)) {
-    frame.fail(key, fmt::format("{}", *size), "a whole number of px from 1");
-  }
-  return static_cast<int>(*size);
-}
-
-// From the focal length itself or from the angle that `size` px take.
-std::optional<double> focal_of(const TransformsFrame& frame, const char* key, const char* angle_key,
-                               int size) {
-  if (const auto focal_px = frame.number(key)) return focal_px;
-  const auto angle = frame.number(angle_key);
-  if (!angle) return {};
-  if (!(*angle > 0 && *angle < M_PI)) {
-    frame.fail(angle_key, fmt::format("{}", *angle), "radians between 0 and pi");
-  }
-  return 0.5 * size / std::tan(0.5 * *angle);
-}
-
-}  // namespace
-
-Intrinsics transforms_intrinsics(const TransformsFrame& frame, const ImageHeader& image) {
-  refuse_distortion(frame);
-  Intrinsics intrinsics;
-  intrinsics.width = size_of(frame, "w", image.width);
-  intrinsics.height = size_of(frame, "h", image.height);
-  const auto x = focal_of(frame, "fl_x", "camera_angle_x", intrinsics.width);
-  const auto y = focal_of(frame, "fl_y", "camera_angle_y", intrinsics.height);
-  if (!x && !y) frame.fail("fl_x", "nothing", "it, or camera_angle_x");
-  intrinsics.focal_x = x ? *x : *y;
-  intrinsics.focal_y = y ? *y : *x;
-  const auto centre_x = frame.number("cx"), centre_y = frame.number("cy");
-  if (centre_x || centre_y) {
-    intrinsics.principal_point = glm::dvec2(centre_x.value_or(0.5 * intrinsics.width),
-                                            centre_y.value_or(0.5 * intrinsics.height));
-  }
-  return intrinsics;
 }
 
 }  // namespace sgs

@@ -2,14 +2,15 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 
+#include "algorithm/dataset/image_search.h"
 #include "algorithm/dataset/layouts.h"
 #include "algorithm/dataset/stated_view.h"
 #include "algorithm/dataset/transforms_frame.h"
-#include "algorithm/dataset/view_image.h"
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_json.h"
 
@@ -28,8 +29,8 @@ bool is_in(const std::string& folder, const char* name) {
 
 class TransformsFile {
  public:
-  TransformsFile(const std::string& folder, const char* name)
-      : folder_(folder), path_(file_in(folder, name).string()), json_(read_json(path_)) {
+  TransformsFile(const fs::path& path, Json json)
+      : folder_(path.parent_path()), path_(path.string()), json_(std::move(json)) {
     if (!json_.is_object() || !json_.contains("frames") || !json_["frames"].is_array()) {
       throw InputError(
           fmt::format("{}: got no frames, expected an object with an array of that name", path_));
@@ -50,15 +51,15 @@ class TransformsFile {
     }
   }
 
-  // The file of points that goes with the frames, if it is named.
+  // The file of points that goes with the frames, where it is named or there.
   std::optional<std::string> points_path() const {
     const auto found = json_.find("ply_file_path");
-    if (found == json_.end()) return {};
+    if (found == json_.end()) return points_file_in(folder_.string());
     if (!found->is_string()) {
       throw InputError(
           fmt::format("{}: ply_file_path: got {}, expected a path", path_, shown(*found)));
     }
-    return file_in(folder_, found->get<std::string>().c_str()).lexically_normal().string();
+    return (folder_ / found->get<std::string>()).lexically_normal().string();
   }
 
   // The names of views under `key`, if it is there: all of them of frames.
@@ -78,36 +79,45 @@ class TransformsFile {
     return names;
   }
 
+  void count_unread_keys(std::map<std::string, int>& counts) const {
+    const auto count = [&](const Json& object) {
+      for (const auto& [key, value] : object.items()) {
+        if (!is_read_of_transforms(key)) ++counts[key];
+      }
+    };
+    count(json_);
+    for (const Json& frame : json_["frames"]) count(frame);
+  }
+
  private:
   StatedView view_of(const TransformsFrame& frame, const std::string& file, Split split) const {
-    const FoundImage found = find_image({folder_}, file, frame.where());
-    if (!frame.number("w") || !frame.number("h")) check_shape(frame, found);
-    return {frame.where(),
-            view_name(file),
-            found.path,
-            found.header,
-            transforms_intrinsics(frame, found.header),
-            opengl_pose(frame.matrix("transform_matrix"), frame.where()),
-            split};
+    StatedView view;
+    view.where = frame.where();
+    view.folders = {""};
+    view.image = file;
+    view.mask = frame.text("mask_path").value_or("");
+    view.intrinsics = transforms_intrinsics(frame);
+    view.pose = opengl_pose(frame.matrix("transform_matrix"), frame.where());
+    view.split = split;
+    // Where frames do not say how large their images are, one angle of all is of one shape: others
+    // were cut, and nobody says where.
+    view.shares_shape = (view.intrinsics.width == 0 || view.intrinsics.height == 0) &&
+                        (json_.contains("camera_angle_x") || json_.contains("camera_angle_y"));
+    return view;
   }
 
-  // Where frames do not say how large their images are, one angle of all is of one shape: others
-  // were cut, and nobody says where.
-  void check_shape(const TransformsFrame& frame, const FoundImage& found) const {
-    if (!of_all("camera_angle_x") && !of_all("camera_angle_y")) return;
-    if (!first_) first_ = found;
-    const ImageHeader &one = found.header, &first = first_->header;
-    if (of_one_shape(one.width, one.height, first.width, first.height)) return;
-    throw InputError(fmt::format("{}: {} is {}x{} px, expected the shape of {}, {}x{} px",
-                                 frame.where(), found.path, one.width, one.height, first_->path,
-                                 first.width, first.height));
-  }
-  bool of_all(const char* key) const { return json_.contains(key); }
-
-  std::string folder_, path_;
+  fs::path folder_;
+  std::string path_;
   Json json_;
-  mutable std::optional<FoundImage> first_;  // whose shape all have
 };
+
+TransformsFile transforms_file(const fs::path& path) { return {path, read_json(path.string())}; }
+
+void add_points(StatedDataset& dataset, const std::optional<std::string>& path) {
+  if (!path) return;
+  dataset.read_points = [path = *path] { return read_points_ply(path); };
+  dataset.files.push_back(*path);
+}
 
 }  // namespace
 
@@ -118,10 +128,11 @@ bool holds_split_transforms(const std::string& folder) {
 StatedDataset read_split_transforms(const std::string& folder) {
   StatedDataset dataset;
   const auto add = [&](const char* name, Split split) {
-    const TransformsFile file(folder, name);
+    const TransformsFile file = transforms_file(file_in(folder, name));
     dataset.files.push_back(file.path());
     file.for_frames(
         [&](const std::string&, const auto& view) { dataset.views.push_back(view(split)); });
+    file.count_unread_keys(dataset.unread_keys);
   };
   add("transforms_train.json", Split::kTrain);
   if (is_in(folder, "transforms_test.json")) {
@@ -131,13 +142,14 @@ StatedDataset read_split_transforms(const std::string& folder) {
   }
   // Nobody reads it here; it is the data set's all the same.
   dataset.files.push_back(file_in(folder, "transforms_val.json").string());
+  add_points(dataset, points_file_in(folder));
   return dataset;
 }
 
 bool holds_transforms(const std::string& folder) { return is_in(folder, "transforms.json"); }
 
 StatedDataset read_transforms(const std::string& folder) {
-  const TransformsFile file(folder, "transforms.json");
+  const TransformsFile file = transforms_file(file_in(folder, "transforms.json"));
   const auto train = file.names("train_filenames");
   auto test = file.names("test_filenames");
   if (!test) test = file.names("val_filenames");
@@ -157,10 +169,18 @@ StatedDataset read_transforms(const std::string& folder) {
       ++dataset.left_out;
     }
   });
-  if (const auto points = file.points_path()) {
-    dataset.points = read_points_ply(*points);
-    dataset.files.push_back(*points);
-  }
+  file.count_unread_keys(dataset.unread_keys);
+  add_points(dataset, file.points_path());
+  return dataset;
+}
+
+StatedDataset frames_of_transforms(const Json& document, const std::string& path) {
+  const TransformsFile file(path, document);
+  StatedDataset dataset;
+  dataset.files = {path};
+  file.for_frames(
+      [&](const std::string&, const auto& view) { dataset.views.push_back(view(Split::kTrain)); });
+  file.count_unread_keys(dataset.unread_keys);
   return dataset;
 }
 

@@ -61,4 +61,24 @@ RgbaImage read_jpeg(const std::string& path);
 // Throws InputError as read_jpeg does, but looks at no pixel.
 ImageHeader read_jpeg_header(const std::string& path);
 
+// WebP pictures.
+
+// Reads one that does not move, lossy or lossless, to values in [0, 1] as stored. Throws
+// InputError: not a WebP, an animation, cut off or damaged, or far shorter than its size in pixels
+// asks for.
+RgbaImage read_webp(const std::string& path);
+
+// Throws InputError as read_webp does, but looks at no pixel.
+ImageHeader read_webp_header(const std::string& path);
+
+// TIFF pictures.
+
+// Reads the first picture of a file as 8 bits a channel to values in [0, 1]. Throws InputError: not
+// a TIFF, a kind that libtiff cannot make RGBA of (floating point), an orientation other than the
+// top row first, cut off or damaged, or shorter than its size in pixels can be packed into.
+RgbaImage read_tiff(const std::string& path);
+
+// Throws InputError as read_tiff does, but looks at no pixel.
+ImageHeader read_tiff_header(const std::string& path);
+
 }  // namespace sgs

@@ -65,22 +65,33 @@ Image read_image(const std::string& path) { return format_of(path).read(path); }
 
 namespace {
 
-bool is_png(const std::string& path) {
-  const std::string head = InputFile(path).text_from(0, 8);
-  if (head == "\x89PNG\r\n\x1a\n") return true;
-  if (head.compare(0, 2, "\xff\xd8") == 0) return false;
-  throw InputError(
-      fmt::format("{}: neither begins as a PNG nor as a JPEG, expected one of them", path));
+struct PhotographFormat {
+  RgbaImage (*read)(const std::string& path);
+  ImageHeader (*read_header)(const std::string& path);
+};
+
+PhotographFormat photograph_format(const std::string& path) {
+  const std::string head = InputFile(path).text_from(0, 12);
+  const auto begins = [&](const std::string& bytes, std::size_t at = 0) {
+    return head.size() >= at && head.compare(at, bytes.size(), bytes) == 0;
+  };
+  const std::string zero(1, '\0');
+  if (begins("\x89PNG\r\n\x1a\n")) return {read_png_rgba, read_png_header};
+  if (begins("\xff\xd8")) return {read_jpeg, read_jpeg_header};
+  if (begins("RIFF") && begins("WEBP", 8)) return {read_webp, read_webp_header};
+  for (const std::string& kind : {"*" + zero, "+" + zero}) {  // of 32-bit and 64-bit offsets
+    if (begins("II" + kind) || begins("MM" + zero + kind[0])) return {read_tiff, read_tiff_header};
+  }
+  throw InputError(fmt::format(
+      "{}: neither begins as a PNG nor as a JPEG, WebP or TIFF, expected one of them", path));
 }
 
 }  // namespace
 
-RgbaImage read_photograph(const std::string& path) {
-  return is_png(path) ? read_png_rgba(path) : read_jpeg(path);
-}
+RgbaImage read_photograph(const std::string& path) { return photograph_format(path).read(path); }
 
 ImageHeader read_photograph_header(const std::string& path) {
-  return is_png(path) ? read_png_header(path) : read_jpeg_header(path);
+  return photograph_format(path).read_header(path);
 }
 
 }  // namespace sgs

@@ -26,12 +26,13 @@ void check_image_name(const std::string& path);
 // file, place, what was found and what was expected.
 Image read_image(const std::string& path);
 
-// PNG and JPEG pictures, told apart by their first bytes.
+// PNG, JPEG, WebP and TIFF pictures, told apart by their first bytes.
 
-// As read_png_rgba or read_jpeg. Throws InputError as they do, and for a file of another kind.
+// As read_png_rgba, read_jpeg, read_webp or read_tiff. Throws InputError as they do, and for a file
+// of another kind.
 RgbaImage read_photograph(const std::string& path);
 
-// As read_png_header or read_jpeg_header.
+// The header alone, in the same way.
 ImageHeader read_photograph_header(const std::string& path);
 
 }  // namespace sgs

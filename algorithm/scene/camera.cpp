@@ -103,6 +103,17 @@ class EntryReader {
     return out;
   }
 
+  // In a picture of `size_px`: minus its middle. 0 where the key is not there.
+  double principal_offset(const char* key, int size_px) const {
+    const auto found = entry_.find(key);
+    if (found == entry_.end()) return 0;
+    const double at_px = number(key, *found);
+    if (!(at_px >= 0 && at_px <= size_px)) {
+      fail(key, fmt::format("{}", at_px), fmt::format("px from 0 to {}, in the picture", size_px));
+    }
+    return at_px - 0.5 * size_px;
+  }
+
   // Rows as stored; glm::dmat3 is made of columns.
   glm::dmat3 rotation(const char* key) const {
     const Json& value = at(key, "3 rows of 3 numbers");
@@ -143,6 +154,8 @@ Camera read_camera(const std::string& path, std::size_t index, const Json& entry
   camera.focal_y = reader.focal("fy");
   camera.position = reader.position("position");
   camera.world_from_camera = reader.rotation("rotation");
+  camera.principal_offset = {reader.principal_offset("cx", camera.width),
+                             reader.principal_offset("cy", camera.height)};
   return camera;
 }
 
@@ -178,6 +191,9 @@ void write_cameras(const std::string& path, const std::vector<Camera>& cameras) 
                     {"rotation", rotation},
                     {"fy", camera.focal_y},
                     {"fx", camera.focal_x}});
+    if (camera.principal_offset == glm::dvec2(0)) continue;
+    json.back()["cx"] = 0.5 * camera.width + camera.principal_offset.x;
+    json.back()["cy"] = 0.5 * camera.height + camera.principal_offset.y;
   }
   const std::string text = json.dump(1) + "\n";
   write_whole_file(path, text.data(), text.size());
@@ -193,6 +209,8 @@ Camera scaled_to(const Camera& camera, int width, int height) {
   scaled.height = height;
   scaled.focal_x = camera.focal_x * width / camera.width;
   scaled.focal_y = camera.focal_y * height / camera.height;
+  scaled.principal_offset = {camera.principal_offset.x * width / camera.width,
+                             camera.principal_offset.y * height / camera.height};
   return scaled;
 }
 

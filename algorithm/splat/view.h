@@ -20,8 +20,10 @@ struct View {
   T focal_x, focal_y;                // px
   T stretch;                         // at least the largest singular value of cam_from_world
   T limit_x, limit_y;                // clamp of v_x/v_z and v_y/v_z in the Jacobian
-  T centre_x, centre_y;              // px: (size - 1) / 2, since pixel (0,0) has its centre at 0
-  int width, height;                 // px
+  // Principal point, px: (size - 1) / 2 where it is in the middle, as pixel (0,0) has its centre at
+  // 0.
+  T centre_x, centre_y;
+  int width, height;  // px
 };
 
 // Largest singular value of R, from above: sqrt of the largest row sum of |R^T R|. 1 for a
@@ -55,10 +57,14 @@ View<T> make_view(const Camera& camera) {
   view.focal_x = constant<T>(camera.focal_x);
   view.focal_y = constant<T>(camera.focal_y);
   view.stretch = constant<T>(largest_stretch(camera.world_from_camera));
-  view.limit_x = constant<T>(kFrustumGuard * camera.width / (2 * camera.focal_x));
-  view.limit_y = constant<T>(kFrustumGuard * camera.height / (2 * camera.focal_y));
-  view.centre_x = constant<T>(0.5 * (camera.width - 1));
-  view.centre_y = constant<T>(0.5 * (camera.height - 1));
+  // Beside the middle: the guard is as far from the border that is farther away.
+  const glm::dvec2 offset = camera.principal_offset;
+  view.limit_x = constant<T>(kFrustumGuard * camera.width / (2 * camera.focal_x) +
+                             std::abs(offset.x) / camera.focal_x);
+  view.limit_y = constant<T>(kFrustumGuard * camera.height / (2 * camera.focal_y) +
+                             std::abs(offset.y) / camera.focal_y);
+  view.centre_x = constant<T>(0.5 * (camera.width - 1) + offset.x);
+  view.centre_y = constant<T>(0.5 * (camera.height - 1) + offset.y);
   view.width = camera.width;
   view.height = camera.height;
   return view;

@@ -14,14 +14,31 @@ namespace {
 
 bool finite(const glm::vec3& v) { return std::isfinite(v.x + v.y + v.z); }
 
+ImageLoss masked_loss(Image picture, Image target, const std::vector<std::uint8_t>& counts,
+                      double ssim_share) {
+  blacken(picture, counts);
+  blacken(target, counts);
+  ImageLoss loss = photometric_loss(picture, target, ssim_share);
+  blacken(loss.gradient, counts);
+  return loss;
+}
+
 }  // namespace
 
-double compare_with(const Image& target, const View<float>& view, const GaussianCloud& parameters,
+void blacken(Image& image, const std::vector<std::uint8_t>& counts) {
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == 0) image.pixels[i] = glm::vec3(0);
+  }
+}
+
+double compare_with(const Image& target, const std::vector<std::uint8_t>& counts,
+                    const View<float>& view, const GaussianCloud& parameters,
                     const ActivatedCloud& cloud, const GroupSequences& sequences,
                     const glm::vec3& background, BlendPrecision precision,
                     const ComparisonRule& rule, CloudGradient& gradient) {
   const RenderResult picture = draw(sequences, background, precision);
-  ImageLoss loss = photometric_loss(picture.image, target, rule.ssim_share);
+  ImageLoss loss = counts.empty() ? photometric_loss(picture.image, target, rule.ssim_share)
+                                  : masked_loss(picture.image, target, counts, rule.ssim_share);
   scene_gradient({view, parameters, cloud, sequences, picture, background, precision},
                  {std::move(loss.gradient), {}}, rule.gradients, gradient);
   return loss.loss;

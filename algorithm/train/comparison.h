@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "algorithm/image/image.h"
 #include "algorithm/tune/cloud_gradient.h"
@@ -19,12 +20,17 @@ struct ComparisonRule {
   GradientRule gradients = GradientRule::kDerivative;
 };
 
-// The loss. sequences: of parameters that activate(parameters) == cloud. gradient:
-// dloss/dparameters.
-double compare_with(const Image& target, const View<float>& view, const GaussianCloud& parameters,
+// The loss. counts: as Photographs has them; pixels that do not count are black in both pictures,
+// and the loss is a mean over all. sequences: of parameters that activate(parameters) == cloud.
+// gradient: dloss/dparameters.
+double compare_with(const Image& target, const std::vector<std::uint8_t>& counts,
+                    const View<float>& view, const GaussianCloud& parameters,
                     const ActivatedCloud& cloud, const GroupSequences& sequences,
                     const glm::vec3& background, BlendPrecision precision,
                     const ComparisonRule& rule, CloudGradient& gradient);
+
+// Black where a pixel does not count. counts: one for each pixel, or none: then all count.
+void blacken(Image& image, const std::vector<std::uint8_t>& counts);
 
 // Throws NotFinite where a derivative or the loss is no finite number. step: from 0.
 void check_finite(int step, double loss, const CloudGradient& gradient);

@@ -1,14 +1,28 @@
 
 #include "algorithm/train/evaluation.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "algorithm/image/quality.h"
+#include "algorithm/train/comparison.h"
 #include "algorithm/tune/group_sequences.h"
 #include "algorithm/tune/visited_sequences.h"
 
 namespace sgs {
+
+Quality quality_of(const Image& picture, const Image& target,
+                   const std::vector<std::uint8_t>& counts) {
+  if (counts.empty()) return {psnr_db(picture, target), ssim(picture, target)};
+  Image own = picture, other = target;
+  blacken(own, counts);
+  blacken(other, counts);
+  const double share = static_cast<double>(std::count(counts.begin(), counts.end(), 1)) /
+                       static_cast<double>(counts.size());
+  return {psnr_db(own, other) + 10 * std::log10(share), 1 - (1 - ssim(own, other)) / share};
+}
 
 std::vector<Quality> qualities(const ActivatedCloud& cloud, const Photographs& photographs,
                                const glm::vec3& background, const PictureSeen& seen) {
@@ -18,7 +32,7 @@ std::vector<Quality> qualities(const ActivatedCloud& cloud, const Photographs& p
     const Image picture = draw(reference_sequences(view, cloud), background).image;
     const Image target = photographs.before(at, background);
     if (seen) seen(at, picture);
-    out.push_back({psnr_db(picture, target), ssim(picture, target)});
+    out.push_back(quality_of(picture, target, photographs.counts(at)));
   }
   return out;
 }
@@ -44,7 +58,7 @@ PaperQuality paper_quality(const ActivatedCloud& cloud, const VoxelGrid& grid,
     const StreamingResult result = render_paper_order(view, cloud, grid, order);
     if (seen) seen(at, result.frame.image);
     const Image target = photographs.before(at, order.background);
-    paper.push_back({psnr_db(result.frame.image, target), ssim(result.frame.image, target)});
+    paper.push_back(quality_of(result.frame.image, target, photographs.counts(at)));
     blends += result.stats.contributors;
     misordered_blends += result.stats.misordered;
     const BoundaryPenalty found =

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -17,6 +18,11 @@ namespace sgs {
 struct Quality {
   double psnr_db, ssim;
 };
+
+// Of the pixels that count (Photographs): the mean square error over them alone; SSIM where those
+// that do not are black in both pictures, and are taken to be alike.
+Quality quality_of(const Image& picture, const Image& target,
+                   const std::vector<std::uint8_t>& counts);
 
 // Is shown what the scene looks like from where photograph `at` was taken.
 using PictureSeen = std::function<void(std::size_t at, const Image& picture)>;

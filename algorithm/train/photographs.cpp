@@ -27,17 +27,19 @@ std::uint16_t rounded(float value) {
 }  // namespace
 
 Photographs::Photographs(const Dataset& dataset, Split split)
-    : Photographs(views_of(dataset, split).size(), [&dataset, views = views_of(dataset, split)](
-                                                       std::size_t at, double downscale) {
-        const auto number = static_cast<std::size_t>(views[at]);
-        const DatasetView& view = dataset.views[number];
-        return Photograph{downscaled_camera(view, downscale), load_view(view, downscale)};
-      }) {}
+    : Photographs(views_of(dataset, split).size(),
+                  [&dataset, views = views_of(dataset, split)](std::size_t at, double downscale) {
+                    const auto number = static_cast<std::size_t>(views[at]);
+                    const DatasetView& view = dataset.views[number];
+                    return Photograph{downscaled_camera(view, downscale),
+                                      load_view(view, downscale), load_mask(view, downscale)};
+                  }) {}
 
 void Photographs::load(double downscale) {
   tbb::parallel_for(std::size_t{0}, stored_.size(), [&](std::size_t at) {
-    const Photograph photograph = source_(at, downscale);
+    Photograph photograph = source_(at, downscale);
     Stored& stored = stored_[at];
+    stored.counts = std::move(photograph.counts);
     stored.camera = photograph.camera;
     stored.transparent = false;
     stored.pixels.resize(photograph.image.pixels.size());

@@ -17,6 +17,7 @@ namespace sgs {
 struct Photograph {
   Camera camera;
   RgbaImage image;
+  std::vector<std::uint8_t> counts;  // as load_mask() gives them
 };
 
 class Photographs {
@@ -36,6 +37,8 @@ class Photographs {
   const Camera& camera(std::size_t at) const { return stored_[at].camera; }
   // As seen before a background: colours to 16 bits, those of 8 bits exactly.
   Image before(std::size_t at, const glm::vec3& background) const;
+  // For each pixel of `at` whether it counts in losses and qualities; empty where all do.
+  const std::vector<std::uint8_t>& counts(std::size_t at) const { return stored_[at].counts; }
   // True if light comes through any of them.
   bool transparent() const { return transparent_; }
 
@@ -43,6 +46,7 @@ class Photographs {
   struct Stored {
     Camera camera;
     std::vector<std::array<std::uint16_t, 4>> pixels;  // colour times alpha, alpha
+    std::vector<std::uint8_t> counts;
     bool transparent = false;
   };
 

@@ -206,9 +206,9 @@ FittingStep QuantisedTuner::step() {
   const ActivatedCloud drawn = encode_quantised(exact_, quantised_, config_.encoding).decoded;
   const GaussianCloud parameters = parameters_of(drawn);
   const GroupSequences sequences = order_.sequences(at, view, drawn);
-  const double loss =
-      compare_with(photographs_.before(at, order_.background), view, parameters, drawn, sequences,
-                   order_.background, order_.precision, config_.comparison, gradient_);
+  const double loss = compare_with(
+      photographs_.before(at, order_.background), photographs_.counts(at), view, parameters, drawn,
+      sequences, order_.background, order_.precision, config_.comparison, gradient_);
   check_finite(next_step_, loss, gradient_);
   const LearningRates rates = config_.rates_at(next_step_);
   entries_.step(gradient_, rates, quantised_);

@@ -65,9 +65,9 @@ FittingStep SceneTuner::step() {
   const std::size_t at = view_order_.at(next_step_, photographs_.size());
   const auto view = make_view<float>(photographs_.camera(at));
   const GroupSequences sequences = order_.sequences(at, view, activated_);
-  double loss =
-      compare_with(photographs_.before(at, order_.background), view, cloud_, activated_, sequences,
-                   order_.background, order_.precision, config_.comparison, gradient_);
+  double loss = compare_with(photographs_.before(at, order_.background), photographs_.counts(at),
+                             view, cloud_, activated_, sequences, order_.background,
+                             order_.precision, config_.comparison, gradient_);
   if (penalty_) loss += penalty_(view, sequences, cloud_, activated_, gradient_);
   check_finite(next_step_, loss, gradient_);
   const auto beyond = adam_.step(gradient_, config_.rates_at(next_step_), cloud_);

@@ -122,9 +122,9 @@ Trainer::Step Trainer::descend(int step) {
   const auto view = make_view<float>(photographs_.camera(at));
   const glm::vec3 background = background_of(step);
   const GroupSequences sequences = reference_sequences(view, activated_);
-  const double loss =
-      compare_with(photographs_.before(at, background), view, cloud_, activated_, sequences,
-                   background, BlendPrecision::kSingle, config_.comparison, gradient_);
+  const double loss = compare_with(photographs_.before(at, background), photographs_.counts(at),
+                                   view, cloud_, activated_, sequences, background,
+                                   BlendPrecision::kSingle, config_.comparison, gradient_);
   if (config_.growth == Growth::kMcmc) add_regularisers();
   check_finite(step, loss, gradient_);
 

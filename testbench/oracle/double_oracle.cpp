@@ -70,14 +70,17 @@ OracleSplat project_one(const Camera& camera, const GaussianCloud& cloud, std::s
 
   const double width = camera.width, height = camera.height;
   const double tan_x = width / (2 * camera.focal_x), tan_y = height / (2 * camera.focal_y);
-  s.x = ((v.x / (v.z * tan_x) + 1) * width - 1) / 2;
-  s.y = ((v.y / (v.z * tan_y) + 1) * height - 1) / 2;
+  const glm::dvec2 off = camera.principal_offset;
+  s.x = ((v.x / (v.z * tan_x) + 1) * width - 1) / 2 + off.x;
+  s.y = ((v.y / (v.z * tan_y) + 1) * height - 1) / 2 + off.y;
 
   const glm::dmat3 r = rotation_of(cloud.quats[i]);
   const glm::dvec3 scale = glm::exp(glm::dvec3(cloud.log_scales[i]));
   const glm::dmat3 m(r[0] * scale.x, r[1] * scale.y, r[2] * scale.z);
-  const double slope_x = std::clamp(v.x / v.z, -1.3 * tan_x, 1.3 * tan_x) * v.z;
-  const double slope_y = std::clamp(v.y / v.z, -1.3 * tan_y, 1.3 * tan_y) * v.z;
+  const double limit_x = 1.3 * tan_x + std::abs(off.x) / camera.focal_x;
+  const double limit_y = 1.3 * tan_y + std::abs(off.y) / camera.focal_y;
+  const double slope_x = std::clamp(v.x / v.z, -limit_x, limit_x) * v.z;
+  const double slope_y = std::clamp(v.y / v.z, -limit_y, limit_y) * v.z;
   // Rows of J R^T, world frame.
   const glm::dmat3& axes = camera.world_from_camera;
   const glm::dvec3 row_x =

@@ -27,10 +27,11 @@ ExactView exact_view(const Camera& camera) {
   view.focal_x = camera.focal_x;
   view.focal_y = camera.focal_y;
   const Exact guard = Exact(13) / 10;
-  view.limit_x = guard * camera.width / (2 * view.focal_x);
-  view.limit_y = guard * camera.height / (2 * view.focal_y);
-  view.centre_x = Exact(camera.width - 1) / 2;
-  view.centre_y = Exact(camera.height - 1) / 2;
+  const Exact off_x = camera.principal_offset.x, off_y = camera.principal_offset.y;
+  view.limit_x = guard * camera.width / (2 * view.focal_x) + abs(off_x) / view.focal_x;
+  view.limit_y = guard * camera.height / (2 * view.focal_y) + abs(off_y) / view.focal_y;
+  view.centre_x = Exact(camera.width - 1) / 2 + off_x;
+  view.centre_y = Exact(camera.height - 1) / 2 + off_y;
   return view;
 }
 

@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "algorithm/dataset/dataset.h"
+#include "algorithm/dataset/view_cameras.h"
 #include "algorithm/files/input_error.h"
 #include "algorithm/scene/describe.h"
 #include "algorithm/splat/activate.h"
@@ -14,6 +17,7 @@
 #include "testbench/command_line/while_doing.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/describe_packed.h"
+#include "testbench/streaminggs/fitting/dataset_arguments.h"
 #include "testbench/streaminggs/fitting/describe_dataset.h"
 #include "testbench/streaminggs/report/numbers.h"
 #include "testbench/streaminggs/run/run_config.h"
@@ -40,26 +44,48 @@ void print_voxels(const ActivatedCloud& cloud) {
   }
 }
 
-void print_dataset_in(const SceneArguments& arguments) {
+struct InfoArguments : SceneArguments {
+  DatasetArguments data;
+};
+
+void print_dataset_in(const InfoArguments& arguments) {
   const std::string& folder = arguments.scene;
   if (arguments.drop_invalid) {
     throw InputError(
         fmt::format("--drop-invalid: {} is a folder of photographs, expected a scene", folder));
   }
-  print_dataset(while_doing("reading " + folder, [&] { return open_dataset(folder); }));
+  print_dataset(while_doing("reading " + folder,
+                            [&] { return open_dataset(folder, arguments.data.options); }));
+}
+
+// Sizes of pictures and how many have them.
+void print_cameras_in(const std::string& file) {
+  const ViewCameras read = while_doing("reading " + file, [&] { return read_view_cameras(file); });
+  std::map<std::pair<int, int>, std::size_t> sizes;
+  for (const Camera& camera : read.cameras) ++sizes[{camera.width, camera.height}];
+  fmt::print("{:<26}{}\n", "cameras", grouped(read.cameras.size()));
+  for (const auto& [size, count] : sizes) {
+    fmt::print("{:<26}{}x{} px ({})\n", "size", size.first, size.second, grouped(count));
+  }
+  if (!read.note.empty()) fmt::print("{:<26}{}\n", "note", read.note);
 }
 
 }  // namespace
 
 SubCommand add_info_command(CommandLine& line, const Kinds& kinds) {
-  auto arguments = std::make_shared<SceneArguments>();
+  auto arguments = std::make_shared<InfoArguments>();
   arguments->add_scene_to(line,
-                          "a .ply file, builtin:NAME?n=COUNT, a .sgs file made by pack, or the "
-                          "folder of a data set");
+                          "a .ply file, builtin:NAME?n=COUNT, a .sgs file made by pack, the folder "
+                          "of a data set, or a .json file of cameras");
+  arguments->data.add_options_to(line);
   return [arguments, &kinds] {
     std::error_code unknown;
     if (std::filesystem::is_directory(arguments->scene, unknown)) {
       print_dataset_in(*arguments);
+      return 0;
+    }
+    if (std::filesystem::path(arguments->scene).extension() == ".json") {
+      print_cameras_in(arguments->scene);
       return 0;
     }
     if (const auto packed = arguments->load_packed()) {

@@ -88,8 +88,9 @@ int run(const PackArguments& arguments, const Kinds& kinds) {
 SubCommand add_pack_command(CommandLine& line, const Kinds& kinds) {
   auto arguments = std::make_shared<PackArguments>();
   arguments->add_scene_to(line, kUnpackedSceneForms);
-  line.file("--cameras", arguments->cameras_path,
-            "cameras.json, for vector quantisation; built-in scenes bring their own");
+  line.file(
+      "--cameras", arguments->cameras_path,
+      "cameras as render takes them, for vector quantisation; built-in scenes bring their own");
   arguments->add_weighing_to(line);
   arguments->add_cache_to(line);
   arguments->config.config = kinds.front().name;

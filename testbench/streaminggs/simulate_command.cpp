@@ -123,7 +123,8 @@ PathJob path_job(const SimulateArguments& arguments, std::vector<Camera>& keys) 
   NumberedCameras numbered;
   for (const Camera& key : keys) numbered.emplace_back(numbered.size(), key);
   const ChosenCameras sized = arguments.in_size(std::move(numbered), path.name);
-  if (!sized.stretch.empty()) fmt::print("{}\n", sized.stretch);
+  if (!path.note.empty()) fmt::print("{}: {}\n", path.name, path.note);
+  for (const std::string& note : sized.notes) fmt::print("{}\n", note);
   for (const auto& [number, camera] : sized.views)
     path.keys[static_cast<std::size_t>(number)] = camera;
   return {path.name, frames_along(path, arguments.frames), arguments.frame_rate};

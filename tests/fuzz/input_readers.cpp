@@ -1,5 +1,6 @@
 // Readers of scenes, cameras, pictures and data sets.
 #include "algorithm/dataset/dataset.h"
+#include "algorithm/dataset/view_cameras.h"
 #include "algorithm/image/image_formats.h"
 #include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_reader.h"
@@ -38,6 +39,18 @@ const std::vector<FuzzedReader>& fuzzed_readers() {
          read_jpeg_header(folder + "/a.jpg");
          read_jpeg(folder + "/a.jpg");
        }},
+      {"webp", "a.webp",
+       [](const std::string& folder) {
+         read_webp_header(folder + "/a.webp");
+         read_webp(folder + "/a.webp");
+       }},
+      {"tiff", "a.tif",
+       [](const std::string& folder) {
+         read_tiff_header(folder + "/a.tif");
+         read_tiff(folder + "/a.tif");
+       }},
+      {"view_cameras", "a.json",
+       [](const std::string& folder) { read_view_cameras(folder + "/a.json"); }},
       {"exr", "a.exr", [](const std::string& folder) { read_exr(folder + "/a.exr"); }},
       {"pfm", "a.pfm", [](const std::string& folder) { read_pfm(folder + "/a.pfm"); }},
       dataset_reader("dataset_cameras", write_cameras_json, "cameras.json"),

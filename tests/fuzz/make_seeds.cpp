@@ -10,6 +10,7 @@
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/train/checkpoint.h"
 #include "tests/algorithm/image/jpeg_bytes.h"
+#include "tests/algorithm/image/photograph_bytes.h"
 #include "tests/algorithm/storage/packed_scenes.h"
 #include "tests/fuzz/few_views.h"
 #include "tests/fuzz/zero_runs.h"
@@ -64,6 +65,10 @@ void make_pictures(const std::string& corpus) {
   write_file(corpus, "exr/good_zip.exr", encode_exr(small));
   write_file(corpus, "pfm/good_colour.pfm", encode_pfm(small));
   const std::vector<std::uint8_t> samples(16 * 12 * 4, 90);
+  write_file(corpus, "webp/good_lossless.webp", webp_bytes(16, 12, samples));
+  write_file(corpus, "tiff/good_deflated.tif", tiff_bytes(16, 12, samples));
+  write_file(corpus, "tiff/good_big_endian.tif", tiff_bytes(16, 12, samples, {16, true, false, 1}));
+  write_file(corpus, "tiff/bad_turned.tif", tiff_bytes(16, 12, samples, {8, false, false, 6}));
   write_file(corpus, "jpeg/good_grey.jpg", jpeg_bytes(16, 12, 1, samples));
   write_file(corpus, "jpeg/good_progressive.jpg", jpeg_bytes(16, 12, 3, samples, true));
   write_file(corpus, "jpeg/bad_cmyk.jpg", jpeg_bytes(16, 12, 4, samples));

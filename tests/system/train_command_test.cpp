@@ -226,5 +226,67 @@ TEST_CASE("train: refusals") {
   }
 }
 
+TEST_CASE("cameras: data sets, transforms.json and cameras.json draw the same pictures") {
+  const ScratchFolder scratch;
+  PhotographedScene scene = made_scene();
+  scene.principal = {28.5, 26};
+  write_transforms(scratch.path("t"), scene);
+  write_colmap_binary(scratch.path("c"), scene);
+  scene.principal = {32, 24};
+  write_transforms(scratch.path("m"), scene);
+  write_cameras_json(scratch.path("j"), scene);
+  const ShellOutcome made = shell(
+      scratch,
+      "rm -r t/images c/images; n=0; for cameras in t t/transforms.json c c/sparse/0 m "
+      "j/cameras.json "
+      "j; do n=$((n + 1)); $SG render 'builtin:object?n=300' --cameras $cameras --view 3 --out "
+      "$n.pfm || exit 1; done; cmp 1.pfm 2.pfm && cmp 3.pfm 4.pfm && cmp 5.pfm 6.pfm && cmp 6.pfm "
+      "7.pfm && ! cmp -s 1.pfm 5.pfm && $SG compare 1.pfm 3.pfm && $SG simulate "
+      "'builtin:object?n=300' --cameras t --view 3 --out o >said && grep -o '\"c[xy]_px\": "
+      "[0-9.]*' o/view_3/report.json | sort -u");
+  INFO(made.out << made.err);
+  CHECK(made.status == 0);
+  CHECK(made.out.find("\"cx_px\": 28.5\n\"cy_px\": 26.0\n") != std::string::npos);
+  const std::size_t psnr = made.out.find("psnr_db ");
+  REQUIRE(psnr != std::string::npos);
+  const std::string db = made.out.substr(psnr + 8, made.out.find('\n', psnr) - psnr - 8);
+  CHECK((db == "inf" || std::stod(db) > 90));
+}
+
+TEST_CASE("cameras, info, train: what is undistorted, masked or not read is said once") {
+  const ScratchFolder scratch;
+  write_transforms(scratch.path("d"), made_scene());
+  std::string text = bytes_of(scratch.path("d/transforms.json"));
+  text.replace(text.find("\"k1\": 0.0"), 9, "\"aabb_scale\": 4, \"k1\": -0.1");
+  text.insert(1, "\"mask_path\": \"images/shot_00.jpg\", ");
+  write_file(scratch.path("d"), "transforms.json", text);
+  const ShellOutcome made = shell(
+      scratch,
+      "$SG info d >a && $SG train d --steps 2 --gaussians 300 --out s.ply >b && $SG tune s.ply "
+      "--boundary --data d --steps 2 --out t.ply >c && for said in a b c; do grep -c "
+      "'^undistorted .*10 views (OPENCV)' $said; grep -c '^masks .*of 10 views' $said; grep -c "
+      "'^not read .*aabb_scale$' $said; done; $SG render s.ply --cameras d --out p.pfm; $SG info "
+      "d/transforms.json");
+  INFO(made.out << made.err);
+  CHECK(made.status == 0);
+  CHECK(made.out.find("1\n1\n1\n1\n1\n1\n1\n1\n1\nd: 10 cameras have a lens (OPENCV) and are drawn "
+                      "as pinholes of its focal lengths; not read: aabb_scale\ncameras ") == 0);
+  CHECK(made.out.find("64x48 px (10)\n") != std::string::npos);
+}
+
+TEST_CASE("info: an option chooses layout and folder of photographs") {
+  const ScratchFolder scratch;
+  write_cameras_json(scratch.path("d"), made_scene());
+  check_refused(scratch, "touch d/transforms.json; $SG info d",
+                {"d: holds transforms.json and cameras.json, expected one of them, or --layout "
+                 "transforms or cameras"});
+  const ShellOutcome made =
+      shell(scratch, "mv d/images d/images_2; $SG info d --layout cameras --images images_2");
+  INFO(made.out << made.err);
+  CHECK(made.status == 0);
+  CHECK(made.out.find("data set                  cameras.json\n") != std::string::npos);
+  CHECK(made.out.find("images from               images_2\n") != std::string::npos);
+}
+
 }  // namespace
 }  // namespace sgs::test

@@ -11,9 +11,11 @@ namespace sgs {
 
 struct DatasetArguments {
   std::string folder;
-  double downscale = 1;
+  DatasetOptions options;
 
-  void add_downscale_to(CommandLine& line);
+  void add_options_to(CommandLine& line);
+  // These need that another argument is given.
+  static constexpr const char* kNames[] = {"--downscale", "--layout", "--images"};
   // The data set in words: a checkpoint must have been made with the same.
   std::string work() const;
   // Reads it and checks that `plan`, to which its files are added as inputs, writes over none of

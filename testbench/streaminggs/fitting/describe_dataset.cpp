@@ -62,7 +62,8 @@ void print_dataset(const Dataset& dataset) {
   }
   print("size", sizes(dataset));
   if (const int cropped = count_if(dataset, [](const DatasetView& view) {
-        return view.used_px.x != view.file.width || view.used_px.y != view.file.height;
+        return is_pinhole(view.taken.lens) &&
+               (view.used_px.x != view.file.width || view.used_px.y != view.file.height);
       })) {
     print("cropped", fmt::format("{} views, to have the principal point in the middle", cropped));
   }
@@ -71,6 +72,11 @@ void print_dataset(const Dataset& dataset) {
   print("points", grouped(dataset.points.size()));
   print("cameras stand in", corners_of(box_of_cameras(dataset)));
   if (dataset.bounds) print("bounds", corners_of(*dataset.bounds));
+  print_notes(dataset);
+}
+
+void print_notes(const Dataset& dataset) {
+  for (const auto& [title, text] : dataset.notes) print(title.c_str(), text);
 }
 
 }  // namespace sgs

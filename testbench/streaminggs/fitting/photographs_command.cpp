@@ -59,7 +59,7 @@ int run(const PhotographsArguments& arguments) {
 SubCommand add_photographs_command(CommandLine& line, const Kinds&) {
   auto arguments = std::make_shared<PhotographsArguments>();
   line.file("DATASET", arguments->data.folder, "the folder of a data set", Given::kAlways);
-  arguments->data.add_downscale_to(line);
+  arguments->data.add_options_to(line);
   line.file("--out", arguments->out,
             "folder for cameras.json of its test views and view_N.exr, the photographs before "
             "black, as machines draw",

@@ -113,7 +113,7 @@ int run(const TrainArguments& arguments) {
 SubCommand add_train_command(CommandLine& line, const Kinds&) {
   auto arguments = std::make_shared<TrainArguments>();
   line.file("DATASET", arguments->data.folder, "the folder of a data set", Given::kAlways);
-  arguments->data.add_downscale_to(line);
+  arguments->data.add_options_to(line);
   arguments->add_to(line, "scene to write: .ply");
   line.whole("--steps", arguments->steps, 1, 1'000'000, "of training, a photograph each");
   line.whole("--gaussians", arguments->gaussians, 1, 100'000'000, "at most");

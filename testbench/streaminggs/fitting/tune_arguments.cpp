@@ -21,15 +21,14 @@ void TuneArguments::add_to(CommandLine& line) {
   line.file("--data", data.folder,
             "the folder of a data set; without, the scene's own "
             "reference pictures are what it is to look like");
-  data.add_downscale_to(line);
-  line.needs("--downscale", "--data");
+  data.add_options_to(line);
+  for (const char* name : DatasetArguments::kNames) line.needs(name, "--data");
   line.text("--target", target,
             "the scene whose reference pictures these are, where it is not SCENE itself: what "
             "SCENE was before it was tuned");
-  line.file(
-      "--cameras", cameras_path,
-      "cameras.json of these pictures, every eighth to test with; built-in scenes bring their "
-      "own, others need it: none are made out of nothing");
+  line.file("--cameras", cameras_path,
+            "cameras of these pictures, every eighth to test with; built-in scenes bring their "
+            "own, others need it: none are made out of nothing");
   line.text("--size", size, "WIDTHxHEIGHT in px; scales the intrinsics");
   line.whole("--between", between, 0, 100'000,
              "so many cameras made to tune on, those given all to test with: each between two of "

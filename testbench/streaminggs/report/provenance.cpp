@@ -47,6 +47,9 @@ std::string text_of(const Camera& camera) {
     text += fmt::format(" {}", camera.position[i]);
     for (int j = 0; j < 3; ++j) text += fmt::format(" {}", camera.world_from_camera[i][j]);
   }
+  if (camera.principal_offset != glm::dvec2(0)) {
+    text += fmt::format(" {} {}", camera.principal_offset.x, camera.principal_offset.y);
+  }
   return text + " " + camera.name;
 }
 

@@ -75,6 +75,11 @@ void visit_camera(ReportVisitor& r, const Camera& camera) {
     Json{camera.position.x, camera.position.y, camera.position.z});
   r("rotation", "",
     "Rows of a matrix whose columns are the axes right, down and forward, in the world.", rotation);
+  if (!r.has(camera.principal_offset != glm::dvec2(0))) return;
+  r("cx_px", "px", "Principal point from the left edge; none where it is in the middle.",
+    0.5 * camera.width + camera.principal_offset.x);
+  r("cy_px", "px", "Principal point from the top edge; none where it is in the middle.",
+    0.5 * camera.height + camera.principal_offset.y);
 }
 
 void visit_error_part(ReportVisitor& r, const char* step, const ErrorPart& part) {

@@ -117,6 +117,10 @@ void add_facts(const JsonPlace& report, ReportedView& view) {
     fact("camera is turned", plain(camera.at("rotation")));
     fact("focal lengths, px",
          fmt::format("{} {}", plain(camera.at("fx_px")), plain(camera.at("fy_px"))));
+    fact("principal point, px",
+         camera.has("cx_px")
+             ? fmt::format("{} {}", plain(camera.at("cx_px")), plain(camera.at("cy_px")))
+             : "in the middle");
   }
   fact("size, px", fmt::format("{}x{}", plain(frame.at("width_px")), plain(frame.at("height_px"))));
   fact("technology", plain(provenance.at("technology")));

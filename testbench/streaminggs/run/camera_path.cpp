@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <utility>
 
+#include "algorithm/dataset/view_cameras.h"
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_json.h"
 #include "algorithm/scene/camera.h"
@@ -32,12 +35,23 @@ CameraPath read_object(const JsonPlace& place, const std::string& file) {
 }
 
 CameraPath read_file(const std::string& file) {
-  const nlohmann::ordered_json json = read_json(file);
+  std::error_code unknown;
   CameraPath path;
-  if (json.is_object()) {
-    path = read_object(JsonPlace(file, json), file);
+  const auto take = [&](ViewCameras read) {
+    path.keys = std::move(read.cameras);
+    path.note = std::move(read.note);
+  };
+  if (std::filesystem::is_directory(file, unknown)) {
+    take(read_view_cameras(file));
   } else {
-    path.keys = cameras_of(json, file);
+    const nlohmann::ordered_json json = read_json(file);
+    const bool others =
+        json.is_object() && (json.contains("frames") || json.contains("camera_path"));
+    if (json.is_object() && !others) {
+      path = read_object(JsonPlace(file, json), file);
+    } else {
+      take(view_cameras_of(json, file));
+    }
   }
   path.name = file;
   return path;
@@ -59,7 +73,7 @@ CameraPath read_camera_path(const std::string& path, const std::string& scene) {
                       path, scene));
     }
     BuiltinPath own = builtin_path(scene);
-    read = {fmt::format("the {} of {}", own.name, scene), std::move(own.keys), own.closed};
+    read = {fmt::format("the {} of {}", own.name, scene), std::move(own.keys), own.closed, ""};
   }
   if (read.keys.size() < 2) {
     throw InputError(
@@ -92,6 +106,7 @@ std::vector<Camera> frames_along(const CameraPath& path, std::uint32_t count) {
     Camera frame = camera_between(a, b, t);
     frame.focal_x = (1 - t) * a.focal_x + t * b.focal_x;
     frame.focal_y = (1 - t) * a.focal_y + t * b.focal_y;
+    frame.principal_offset = (1 - t) * a.principal_offset + t * b.principal_offset;
     frame.id = static_cast<int>(i);
     frame.name = fmt::format("frame_{}", i);
     frames.push_back(frame);

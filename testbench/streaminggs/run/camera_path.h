@@ -13,12 +13,13 @@ struct CameraPath {
   std::string name;  // name in messages: its file, or the scene that it belongs to
   std::vector<Camera> keys;
   bool closed = false;  // from the last key back to the first
+  std::string note;     // as ViewCameras has it
 };
 
-// Reads a path: an array of cameras as cameras.json, which is open, or an object {cameras, closed}.
+// Reads a path: an object {cameras, closed}, or whatever read_view_cameras() takes, which is open.
 // The name `builtin:path` stands for the way that comes with a built-in scene. scene: what the
-// command calls it. Throws InputError as read_cameras and builtin_path do; for another key; for
-// fewer than two cameras; for `builtin:path` with a scene that is none.
+// command calls it. Throws InputError as read_view_cameras and builtin_path do; for another key;
+// for fewer than two cameras; for `builtin:path` with a scene that is none.
 CameraPath read_camera_path(const std::string& path, const std::string& scene);
 
 // True if `path` is the name of a file.

@@ -96,7 +96,9 @@ void SceneArguments::add_dropping_to(CommandLine& line) {
 }
 
 void SceneArguments::add_views_to(CommandLine& line) {
-  line.file("--cameras", cameras_path, "cameras.json; built-in scenes bring their own");
+  line.file("--cameras", cameras_path,
+            "cameras.json, transforms.json, a camera path of nerfstudio, or the folder of a COLMAP "
+            "model or a data set; built-in scenes bring their own");
   add_choice_of_views_to(line);
 }
 
@@ -128,7 +130,9 @@ std::string SceneArguments::default_out(const std::string& config_name) const {
 
 void SceneArguments::add_inputs_to(OutputPlan& plan) const {
   plan.add_input(scene);
-  plan.add_input(cameras_path);
+  std::error_code unknown;
+  if (!std::filesystem::is_directory(cameras_path, unknown)) return plan.add_input(cameras_path);
+  for (const std::string& file : read_view_cameras(cameras_path).files) plan.add_input(file);
 }
 
 void SceneArguments::check_file() const {
@@ -168,17 +172,18 @@ std::optional<PackedScene> SceneArguments::load_packed() const {
   return while_doing("reading " + scene, [&] { return read_image_file(scene); });
 }
 
-std::vector<Camera> SceneArguments::all_cameras(const std::vector<Camera>& own) const {
-  if (cameras_path.empty()) return own;
-  std::vector<Camera> cameras = read_cameras(cameras_path);
-  if (cameras.empty()) {
+ViewCameras SceneArguments::all_cameras(const std::vector<Camera>& own) const {
+  if (cameras_path.empty()) return {own, {}, ""};
+  ViewCameras read = read_view_cameras(cameras_path);
+  if (read.cameras.empty()) {
     throw InputError(fmt::format("{}: holds no cameras, expected one or more", cameras_path));
   }
-  return cameras;
+  return read;
 }
 
 ChosenCameras SceneArguments::chosen_cameras(const std::vector<Camera>& own) const {
-  const std::vector<Camera> all = all_cameras(own);
+  const ViewCameras read = all_cameras(own);
+  const std::vector<Camera>& all = read.cameras;
   if (all.empty()) {
     throw InputError(fmt::format("{}: brings no cameras: --cameras FILE is needed", scene));
   }
@@ -186,18 +191,19 @@ ChosenCameras SceneArguments::chosen_cameras(const std::vector<Camera>& own) con
   for (const int number : chosen_numbers(view, static_cast<int>(all.size()))) {
     chosen.emplace_back(number, all[static_cast<std::size_t>(number)]);
   }
-  return in_size(std::move(chosen), origin_of_cameras());
+  ChosenCameras sized = in_size(std::move(chosen), origin_of_cameras());
+  if (!read.note.empty()) sized.notes.push_back(cameras_path + ": " + read.note);
+  return sized;
 }
 
 ChosenCameras SceneArguments::in_size(std::vector<std::pair<int, Camera>> cameras,
                                       const std::string& origin) const {
-  ChosenCameras chosen{std::move(cameras), ""};
+  ChosenCameras chosen{std::move(cameras), {}};
   for (auto& [index, camera] : chosen.views) {
     if (!size.empty()) {
       const auto [width, height] = parse_size(size);
-      if (chosen.stretch.empty()) {
-        chosen.stretch = stretch_of(size, index, camera, {width, height});
-      }
+      const std::string stretch = stretch_of(size, index, camera, {width, height});
+      if (chosen.notes.empty() && !stretch.empty()) chosen.notes.push_back(stretch);
       camera = scaled_to(camera, width, height);
     }
     if (camera.width > kMaxSizePx || camera.height > kMaxSizePx) {
@@ -212,7 +218,7 @@ ChosenCameras SceneArguments::in_size(std::vector<std::pair<int, Camera>> camera
 
 std::vector<std::pair<int, Camera>> SceneArguments::cameras(const std::vector<Camera>& own) const {
   ChosenCameras chosen = chosen_cameras(own);
-  if (!chosen.stretch.empty()) fmt::print("{}\n", chosen.stretch);
+  for (const std::string& note : chosen.notes) fmt::print("{}\n", note);
   return std::move(chosen.views);
 }
 
@@ -227,13 +233,15 @@ std::vector<PixelSize> SceneArguments::frame_sizes() const {
     own = load().cameras;
   }
   std::vector<PixelSize> sizes;
-  for (const auto& [number, camera] : cameras(own)) sizes.push_back({camera.width, camera.height});
+  for (const auto& [number, camera] : chosen_cameras(own).views) {
+    sizes.push_back({camera.width, camera.height});
+  }
   return sizes;
 }
 
 std::vector<Camera> SceneArguments::weighing_cameras(const std::vector<Camera>& own,
                                                      SecondHalfEncoding encoding) const {
-  std::vector<Camera> all = all_cameras(own);
+  std::vector<Camera> all = all_cameras(own).cameras;
   const bool quantised = SecondHalfFormat{encoding, 0, {}}.quantised();
   if (!weigh_by.empty() && !quantised) {
     throw InputError(fmt::format(

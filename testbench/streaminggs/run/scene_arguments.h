@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "algorithm/dataset/view_cameras.h"
 #include "algorithm/files/output_file.h"
 #include "algorithm/memory/second_half.h"
 #include "algorithm/scene/load_scene.h"
@@ -20,17 +21,17 @@ constexpr const char* kSceneForms =
     "a .ply file, builtin:NAME?n=COUNT, or a .sgs file made by pack";
 constexpr const char* kUnpackedSceneForms = "a .ply file or builtin:NAME?n=COUNT";
 
-// Cameras with their numbers, and a line that says what their size does to the shape of the picture
-// where that is another than theirs.
+// Cameras with their numbers, and lines for the terminal: what their size does to the shape of the
+// picture where that is another than theirs, and what their file says that frames do not show.
 struct ChosenCameras {
   std::vector<std::pair<int, Camera>> views;
-  std::string stretch;
+  std::vector<std::string> notes;
 };
 
 struct SceneArguments {
   std::string scene;
   const char* scene_forms = kSceneForms;
-  std::string cameras_path;   // empty: the cameras of a built-in scene
+  std::string cameras_path;   // file or folder; empty: the cameras of a built-in scene
   std::string view = "0";     // numbers, separated by commas, or "all"
   std::string size;           // "WxH" or empty
   std::vector<int> weigh_by;  // numbers of cameras; empty: all
@@ -62,7 +63,7 @@ struct SceneArguments {
   // Those of the chosen views, scaled to `size`. own: those that the scene brings. Throws
   // InputError.
   ChosenCameras chosen_cameras(const std::vector<Camera>& own) const;
-  // The same; the line, where there is one, goes to the terminal.
+  // The same; the lines go to the terminal.
   std::vector<std::pair<int, Camera>> cameras(const std::vector<Camera>& own) const;
   // These, scaled and checked in the same way. origin: where they come from, for messages.
   ChosenCameras in_size(std::vector<std::pair<int, Camera>> cameras,
@@ -78,7 +79,7 @@ struct SceneArguments {
 
  private:
   // Those of the file, where one is given: InputError when it holds none.
-  std::vector<Camera> all_cameras(const std::vector<Camera>& own) const;
+  ViewCameras all_cameras(const std::vector<Camera>& own) const;
   const std::string& origin_of_cameras() const {
     return cameras_path.empty() ? scene : cameras_path;
   }

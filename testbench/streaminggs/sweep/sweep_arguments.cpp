@@ -28,7 +28,8 @@ void SweepArguments::add_to(CommandLine& line) {
   config.add_to(line);
   config.add_fitting_to(line);
   line.texts("--cameras", cameras,
-             "cameras.json, for all scenes or one for each in their order; built-in scenes bring "
+             "cameras as render takes them, for all scenes or one for each in their order; "
+             "built-in scenes bring "
              "their own; may be repeated");
   all.add_choice_of_views_to(line);
   all.add_weighing_to(line);

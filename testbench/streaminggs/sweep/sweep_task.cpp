@@ -57,8 +57,8 @@ std::vector<SceneArguments> SweepPlan::scenes_of(const SweepPoint& point) const 
 std::vector<std::string> SweepPlan::check_scenes() {
   std::vector<std::string> notes;
   for (const SceneArguments& scene : defaults_.scenes) {
-    const ChosenCameras& chosen = scene_of(scene).cameras(defaults_.view, defaults_.size);
-    if (!chosen.stretch.empty()) notes.push_back(chosen.stretch);
+    const auto& said = scene_of(scene).cameras(defaults_.view, defaults_.size).notes;
+    notes.insert(notes.end(), said.begin(), said.end());
   }
   return notes;
 }

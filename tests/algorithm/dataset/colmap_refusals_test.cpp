@@ -34,9 +34,9 @@ TEST_CASE("dataset refuses: COLMAP's models with distortion, ids, text that is n
   const std::size_t kQuaternion = 8 + 4, kTranslation = kQuaternion + 32;
   const std::size_t kCameraId = kTranslation + 24;
   check_refused({
-      {write_colmap_binary,
+      {write_colmap_binary,  // of OPENCV there are eight numbers
        overwrite("sparse/0/cameras.bin", kModel, std::int32_t{4}),
-       {"cameras.bin: camera 0: got the camera model OPENCV, expected PINHOLE or SIMPLE_PINHOLE"}},
+       {"cameras.bin: byte 64: the file ends, expected a camera's parameters"}},
       {write_colmap_binary,
        overwrite("sparse/0/cameras.bin", kModel, std::int32_t{-5}),
        {"got the camera model number -5"}},
@@ -67,7 +67,7 @@ TEST_CASE("dataset refuses: COLMAP's models with distortion, ids, text that is n
       {write_colmap_binary, without("sparse/0/points3D.bin"), {"points3D.bin: cannot be opened"}},
       {write_colmap_text,
        replace("sparse/0/cameras.txt", "SIMPLE_PINHOLE", "SIMPLE_RADIAL"),
-       {"cameras.txt: line 2: got the camera model SIMPLE_RADIAL"}},
+       {"cameras.txt: line 2: ends, expected a camera's parameter"}},
       {write_colmap_text,
        replace("sparse/0/cameras.txt", "3 SIMPLE", "3 SIMPLE_PINHOLE 64 48 60 32 24\n3 SIMPLE"),
        {"cameras.txt: line 3: camera id 3 a second time"}},
@@ -95,6 +95,19 @@ TEST_CASE("dataset refuses: COLMAP's models with distortion, ids, text that is n
       {write_colmap_text,
        with("sparse/0/points3D.txt", "1 0 0 0 255 256 0 1\n"),
        {"points3D.txt: line 1: a colour: got '256', expected a whole number from 0 to 255"}},
+      {write_colmap_text,
+       with("sparse/0/points3D.txt", "1 0 0 0 255 25 0 x\n"),
+       {"points3D.txt: line 1: an error: got 'x', expected a number"}},
+      {write_colmap_text,
+       with("sparse/0/points3D.txt", "1 0 0 0 255 25 0 0.5 1 0 2\n"),
+       {"points3D.txt: line 1: ends, expected a point's number of a track"}},
+      {write_colmap_text,
+       replace("sparse/0/images.txt", "1.5 2.5 -1\n", "1.5 2.5 -1 7\n"),
+       {"images.txt: line 3: got 4 fields, expected the points of the image before it, 3 numbers "
+        "each, or another image"}},
+      {write_colmap_text,
+       replace("sparse/0/images.txt", "1.5 2.5 -1\n", "1.5 a.jpg -1\n"),
+       {"images.txt: line 3: got 3 fields"}},
   });
 }
 
@@ -102,25 +115,29 @@ TEST_CASE("dataset refuses: COLMAP's binary files cut at every byte, and counts 
   const ScratchFolder scratch;
   write_colmap_binary(scratch.path("set"), made_scene());
   const std::string folder = scratch.path("set/sparse/0");
-  CHECK(read_colmap_binary(folder).images.size() == 10);
+  const auto read_all = [&] {
+    const ColmapModel model = read_colmap_binary(folder);
+    read_colmap_points_binary(folder);
+    return model;
+  };
+  CHECK(read_all().images.size() == 10);
   for (const char* name : {"cameras.bin", "images.bin", "points3D.bin"}) {
     const std::string path = folder + "/" + name;
     const std::string whole = bytes_of(path);
     for (std::size_t size = 0; size < whole.size(); ++size) {
       INFO(name << " " << size);
       write_file(folder, name, whole.substr(0, size));
-      CHECK_THAT(input_error_of([&] { read_colmap_binary(folder); }), Contains(path + ": byte "));
+      CHECK_THAT(input_error_of(read_all), Contains(path + ": byte "));
     }
     for (const std::uint64_t count :
          {std::uint64_t{11}, std::uint64_t{1} << 40, ~std::uint64_t{0}}) {
       std::string bytes = whole;
       std::memcpy(bytes.data(), &count, sizeof(count));
       write_file(folder, name, bytes);
-      CHECK_THAT(input_error_of([&] { read_colmap_binary(folder); }), Contains(path + ": byte "));
+      CHECK_THAT(input_error_of(read_all), Contains(path + ": byte "));
     }
     write_file(folder, name, whole + "x");
-    CHECK_THAT(input_error_of([&] { read_colmap_binary(folder); }),
-               Contains("got 1 bytes after the last record"));
+    CHECK_THAT(input_error_of(read_all), Contains("got 1 bytes after the last record"));
     write_file(folder, name, whole);
   }
   // The counts inside of records: points of an image, images of a point.
@@ -129,8 +146,7 @@ TEST_CASE("dataset refuses: COLMAP's binary files cut at every byte, and counts 
   for (const auto& [name, at] : {std::pair("images.bin", kPoints2d), {"points3D.bin", kTrack}}) {
     const std::string whole = bytes_of(folder + "/" + name);
     overwrite(name, at, ~std::uint64_t{0} / 16)(folder);
-    CHECK_THAT(input_error_of([&] { read_colmap_binary(folder); }),
-               Contains("expected as many as "));
+    CHECK_THAT(input_error_of(read_all), Contains("expected as many as "));
     write_file(folder, name, whole);
   }
 }

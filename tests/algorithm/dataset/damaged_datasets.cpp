@@ -17,6 +17,25 @@ Damage replace(const std::string& name, const std::string& from, const std::stri
   };
 }
 
+Damage replace_all(const std::string& name, const std::string& from, const std::string& to) {
+  return [=](const std::string& folder) {
+    std::string text = bytes_of(folder + "/" + name);
+    REQUIRE(text.find(from) != std::string::npos);
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+      text.replace(at, from.size(), to);
+    }
+    write_file(folder, name, text);
+  };
+}
+
+Damage move_to(const std::string& from, const std::string& to) {
+  return [=](const std::string& folder) {
+    const std::filesystem::path path = folder + "/" + to;
+    std::filesystem::create_directories(path.parent_path());
+    std::filesystem::rename(folder + "/" + from, path);
+  };
+}
+
 Damage with(const std::string& name, const std::string& bytes) {
   return [=](const std::string& folder) { write_file(folder, name, bytes); };
 }

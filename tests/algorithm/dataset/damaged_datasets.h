@@ -19,6 +19,12 @@ using Damage = std::function<void(const std::string& folder)>;
 // Puts `to` where `from` first is in folder/name.
 Damage replace(const std::string& name, const std::string& from, const std::string& to);
 
+// The same wherever `from` is.
+Damage replace_all(const std::string& name, const std::string& from, const std::string& to);
+
+// Moves folder/from to folder/to.
+Damage move_to(const std::string& from, const std::string& to);
+
 // Writes folder/name, with these bytes.
 Damage with(const std::string& name, const std::string& bytes);
 

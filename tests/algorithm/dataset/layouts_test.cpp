@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <numeric>
 #include <tuple>
 
 #include "algorithm/dataset/dataset.h"
+#include "tests/algorithm/dataset/damaged_datasets.h"
 #include "tests/algorithm/dataset/made_datasets.h"
 #include "tests/support/scratch_folder.h"
 
@@ -137,7 +139,7 @@ TEST_CASE(
   for (const auto& [downscale, width, height] :
        {std::tuple(1.0, 64, 53), {2.0, 32, 27}, {1.5, 43, 35}, {4.0, 16, 13}, {1e3, 1, 1}}) {
     INFO(downscale);
-    const Dataset dataset = open_dataset(scratch.path(""), downscale);
+    const Dataset dataset = open_dataset(scratch.path(""), {downscale, "", ""});
     REQUIRE(dataset.views.size() == whole.views.size());
     for (std::size_t i = 0; i < whole.views.size(); ++i) {
       const Camera& camera = dataset.views[i].camera;
@@ -166,7 +168,7 @@ TEST_CASE("dataset: transparent pixels give a smaller picture their share, not t
     for (int y = 0; y < 48; ++y) image.at(x, y) = {1, 0.2f, 0, 1};
   }
   write_file(scratch.path(""), "rgb/0_0000.png", rgba_png(image));
-  const Dataset dataset = open_dataset(scratch.path(""), 2);
+  const Dataset dataset = open_dataset(scratch.path(""), {2, "", ""});
   const RgbaImage half = load_view(dataset.views[0]);
   for (const glm::vec4& pixel : half.pixels) CHECK(pixel == glm::vec4(0.5f, 0.1f, 0, 0.5f));
 }
@@ -329,4 +331,119 @@ TEST_CASE("dataset: scaled intrinsics keep the field of view") {
     CHECK(camera.focal_y / camera.height == Approx(60.0 / 48));
     CHECK(load_view(dataset.views[0], downscale).width == camera.width);
   }
+}
+
+TEST_CASE("dataset: images.txt without lines of points, with some of them, with comments between") {
+  const PhotographedScene scene = made_scene();
+  // Every other image has a line of points, the others an empty one.
+  const char *kPoints = "1.5 2.5 -1\n", *kNone = "\n\n";
+  const std::string file = "sparse/0/images.txt";
+  for (const std::vector<Damage>& changes : std::vector<std::vector<Damage>>{
+           {replace_all(file, kPoints, "")},
+           {replace_all(file, kNone, "\n")},
+           {replace_all(file, kPoints, ""), replace_all(file, kNone, "\n")},
+           {replace_all(file, kPoints, "# none\n"), replace_all(file, kNone, "\n# none\n")},
+           {replace_all(file, kPoints, "1.5 2.5 -1 nan 0 7\n")}}) {
+    const ScratchFolder scratch;
+    write_colmap_text(scratch.path(""), scene);
+    for (const Damage& change : changes) change(scratch.path(""));
+    check_cameras(open_dataset(scratch.path("")), scene.cameras);
+  }
+}
+
+TEST_CASE(
+    "dataset: a COLMAP model in colmap/sparse/0 and in the folder itself, beside nothing else") {
+  const PhotographedScene scene = made_scene();
+  for (const char* to : {"colmap/sparse/0", "."}) {
+    for (const auto& write : {write_colmap_binary, write_colmap_text}) {
+      INFO(to);
+      const ScratchFolder scratch;
+      write(scratch.path(""), scene);
+      std::filesystem::create_directories(scratch.path(to));
+      for (const auto& entry : std::filesystem::directory_iterator(scratch.path("sparse/0"))) {
+        std::filesystem::rename(entry.path(), scratch.path(to) / entry.path().filename());
+      }
+      std::filesystem::remove_all(scratch.path("sparse"));
+      const Dataset dataset = open_dataset(scratch.path(""));
+      CHECK(dataset.layout == "COLMAP");
+      CHECK(dataset.points.size() == scene.points.size());
+      check_cameras(dataset, scene.cameras);
+      // As nerfstudio leaves it: its own file is the data set, the model may be asked for.
+      const ScratchFolder other;
+      write_transforms(other.path("t"), scene);
+      std::filesystem::rename(other.path("t/transforms.json"), scratch.path("transforms.json"));
+      std::filesystem::copy(other.path("t/images"), scratch.path("images"),
+                            std::filesystem::copy_options::skip_existing);
+      const bool both_kinds = write == write_colmap_text;  // .jpg beside .png
+      if (!both_kinds) CHECK(open_dataset(scratch.path("")).layout == "transforms.json");
+      CHECK(open_dataset(scratch.path(""), {1, "colmap", ""}).layout == "COLMAP");
+    }
+  }
+}
+
+TEST_CASE("dataset: of two layouts in a folder an option chooses") {
+  const ScratchFolder scratch;
+  write_transforms(scratch.path(""), made_scene());
+  write_cameras_json(scratch.path(""), made_scene());
+  const auto open = [&](const std::string& layout) {
+    return open_dataset(scratch.path(""), {1, layout, ""});
+  };
+  CHECK(open("transforms").layout == "transforms.json");
+  std::filesystem::remove(scratch.path("images/shot_00.jpg"));
+  for (int i = 0; i < 10; ++i) {
+    std::filesystem::remove(scratch.path("images/shot_0" + std::to_string(i) + ".jpg"));
+  }
+  CHECK(open("cameras").layout == "cameras.json");
+  CHECK(input_error_of([&] { open("nsvf"); })
+            .find("holds no intrinsics.txt with pose and rgb, expected what --layout nsvf stands "
+                  "for") != std::string::npos);
+  CHECK(
+      input_error_of([&] { open("blender"); }) ==
+      "--layout: got 'blender', expected one of colmap, nerf-synthetic, transforms, cameras, nsvf");
+}
+
+TEST_CASE("dataset: start points in points3D.ply, where nothing else brings them") {
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+      "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+      "end_header\n1 2 3 4 5 6\n";
+  struct Row {
+    WriteDataset write;
+    std::vector<std::string> without;
+    const char* file;
+    std::size_t points;
+  };
+  for (const Row& row :
+       {Row{write_colmap_binary, {"sparse/0/points3D.bin"}, "sparse/0/points3D.ply", 1},
+        Row{write_colmap_text, {"sparse/0/points3D.txt"}, "sparse/0/points3D.ply", 1},
+        Row{write_colmap_text, {}, "sparse/0/points3D.ply", 5},
+        Row{write_nerf_synthetic, {}, "points3d.ply", 1},
+        Row{write_transforms, {}, "points3D.ply", 1}}) {
+    INFO(row.file);
+    const ScratchFolder scratch;
+    row.write(scratch.path(""), made_scene());
+    for (const std::string& file : row.without) std::filesystem::remove(scratch.path(file));
+    write_file(scratch.path(""), row.file, ply);
+    const Dataset dataset = open_dataset(scratch.path(""));
+    REQUIRE(dataset.points.size() == row.points);
+    if (row.points == 1) CHECK(dataset.points[0].position == glm::vec3(1, 2, 3));
+  }
+}
+
+TEST_CASE("dataset: names that say nothing here are counted") {
+  const ScratchFolder scratch;
+  write_transforms(scratch.path(""), made_scene());
+  replace("transforms.json", "{",
+          "{\"applied_transform\": [], \"aabb_scale\": 4, ")(scratch.path(""));
+  replace_all("transforms.json", "{\"file_path\"",
+              "{\"sharpness\": 9, \"file_path\"")(scratch.path(""));
+  const Dataset dataset = open_dataset(scratch.path(""));
+  REQUIRE(dataset.notes.size() == 1);
+  CHECK(dataset.notes[0].first == "not read");
+  CHECK(dataset.notes[0].second == "aabb_scale, applied_transform, sharpness (10 times)");
+  const ScratchFolder colmap;
+  write_colmap_text(colmap.path(""), made_scene());
+  write_file(colmap.path(""), "masks/shot_00.png.png", "");
+  REQUIRE(open_dataset(colmap.path("")).notes.size() == 1);
+  CHECK(open_dataset(colmap.path("")).notes[0].second == "the folder masks");
 }

@@ -47,6 +47,20 @@ TEST_CASE("exact order equals the reference: random hard scenes and configuratio
   test::fuzz_exact_order(0, 500);
 }
 
+TEST_CASE("exact order equals the reference: principal points at every border of the frame") {
+  const auto cloud = activate(test::random_cloud(7, 2000, 0, {0, 0, 4}, 5, 0.02F, 0.5F));
+  const auto stored = test::by_chunks(cloud, 16);
+  for (const glm::dvec2 offset : {glm::dvec2(-50, 0), {50, 23.5}, {0.25, -23}, {-31.75, 10}}) {
+    Camera camera = test::forward_camera(100, 47, 90);
+    camera.principal_offset = offset;
+    for (const PixelSize group : {PixelSize{12, 4}, {16, 16}, {160, 120}}) {
+      CAPTURE(offset.x, offset.y, group.width);
+      CHECK(difference_from_reference(make_view<float>(camera), stored.cloud, stored.table,
+                                      with_group(group)) == "");
+    }
+  }
+}
+
 TEST_CASE("exact order equals the reference: SH degrees 0 to 3, odd frames, every group size") {
   for (const int degree : {0, 1, 2, 3}) {
     const auto cloud = test::random_cloud(20 + static_cast<unsigned>(degree), 1500, degree,

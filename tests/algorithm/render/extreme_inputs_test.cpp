@@ -70,6 +70,25 @@ TEST_CASE("one Gaussian") {
   check_pixels(forward_camera(70, 50, 60), cloud, 1e-6);
 }
 
+TEST_CASE("a principal point beside the middle: against double, and a cut of a larger frame") {
+  const GaussianCloud cloud = test::random_cloud(5, 1500, 1, {0, 0, 4}, 1.2F, 0.02F, 0.2F);
+  const Camera whole = forward_camera(160, 112, 120);
+  // From pixel (48, 32), where a tile begins.
+  Camera cut = forward_camera(96, 64, 120);
+  cut.principal_offset = {80 - 48 - 48, 56 - 32 - 32};
+  check_frame("beside the middle", cut, cloud);
+  const Image large = render(whole, cloud).image, small = render(cut, cloud).image;
+  Image part(96, 64);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 96; ++x) part.at(x, y) = large.at(48 + x, 32 + y);
+  }
+  CHECK(fraction_within(part, small, 1e-4) >= 0.997);
+  CHECK(psnr_db(part, small) >= 65);
+  Camera middle = cut;
+  middle.principal_offset = {0, 0};
+  CHECK(psnr_db(part, render(middle, cloud).image) < 40);
+}
+
 TEST_CASE("a million Gaussians at one point: the first ones finish the pixels") {
   GaussianCloud cloud;
   for (int i = 0; i < 1000000; ++i) {

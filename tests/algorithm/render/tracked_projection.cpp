@@ -17,10 +17,11 @@ View<Tracked> tracked_view(const Camera& camera) {
   }
   view.focal_x = rounded(camera.focal_x);
   view.focal_y = rounded(camera.focal_y);
-  view.limit_x = rounded(1.3 * camera.width / (2 * camera.focal_x));
-  view.limit_y = rounded(1.3 * camera.height / (2 * camera.focal_y));
-  view.centre_x = rounded(0.5 * (camera.width - 1));
-  view.centre_y = rounded(0.5 * (camera.height - 1));
+  const glm::dvec2 off = camera.principal_offset;
+  view.limit_x = rounded((0.65 * camera.width + std::abs(off.x)) / camera.focal_x);
+  view.limit_y = rounded((0.65 * camera.height + std::abs(off.y)) / camera.focal_y);
+  view.centre_x = rounded(0.5 * (camera.width - 1) + off.x);
+  view.centre_y = rounded(0.5 * (camera.height - 1) + off.y);
   view.width = camera.width;
   view.height = camera.height;
   return view;

@@ -56,6 +56,27 @@ TEST_CASE("cameras: the columns of the stored rotation are the camera's axes") {
   CHECK(camera.world_from_camera[2] == glm::dvec3(-1, 0, 0));
 }
 
+TEST_CASE("cameras: a principal point beside the middle is read, written and scaled") {
+  const test::ScratchFolder scratch;
+  Json beside = one_camera();
+  beside["cx"] = 300.25;
+  const Camera camera = read_cameras(scratch.write("a.json", Json({beside}).dump()))[0];
+  CHECK(camera.principal_offset == glm::dvec2(-19.75, 0));
+  write_cameras(scratch.path("b.json"), {camera});
+  CHECK(read_cameras(scratch.path("b.json"))[0].principal_offset == camera.principal_offset);
+  CHECK(scaled_to(camera, 320, 90).principal_offset == glm::dvec2(-9.875, 0));
+  beside["cy"] = 45;
+  const Camera both = read_cameras(scratch.write("a.json", Json({beside}).dump()))[0];
+  CHECK(scaled_to(both, 320, 90).principal_offset == glm::dvec2(-9.875, -33.75));
+  // In the middle nothing is written: the file is the original's.
+  write_cameras(scratch.path("c.json"),
+                read_cameras(scratch.write("a.json", Json({one_camera()}).dump())));
+  CHECK(test::bytes_of(scratch.path("c.json")).find("cx") == std::string::npos);
+  CHECK_THAT(refusal_of("cx", 640.5), Contains("cx: got 640.5, expected px from 0 to 640"));
+  CHECK_THAT(refusal_of("cy", -1), Contains("cy: got -1, expected px from 0 to 360"));
+  CHECK_THAT(refusal_of("cy", "x"), Contains("cy: got \"x\", expected a finite number"));
+}
+
 TEST_CASE("cameras: no cameras, and sizes written as floats") {
   const test::ScratchFolder scratch;
   CHECK(read_cameras(scratch.write("a.json", "[]")).empty());

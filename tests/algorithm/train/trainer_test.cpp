@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "algorithm/image/quality.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/train/evaluation.h"
 #include "algorithm/train/start_cloud.h"
@@ -232,6 +233,67 @@ TEST_CASE("training: what is no number stops it, and the step has changed nothin
   CHECK_THROWS_WITH(trainer.step(), Catch::StartsWith("step 1: a derivative of Gaussian "));
   CHECK(trainer.cloud().means == cloud.means);
   CHECK(trainer.next_step() == 0);
+}
+
+TEST_CASE("training: pixels that do not count change no scene and no quality") {
+  // A third of each photograph is masked, and there of another colour each time.
+  const auto masked = [](float red) {
+    Photographs photographs(5, [red](std::size_t at, double downscale) {
+      Photographs whole = photographs_of(scene(), 5);
+      whole.load(downscale);
+      Photograph out;
+      out.camera = whole.camera(at);
+      const Image image = whole.before(at, glm::vec3(0));
+      out.image = RgbaImage(image.width, image.height);
+      for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const bool counts = static_cast<int>(i) % image.width >= image.width / 3;
+        out.image.pixels[i] = glm::vec4(counts ? image.pixels[i] : glm::vec3(red, 0, 0), 1);
+        out.counts.push_back(counts ? 1 : 0);
+      }
+      return out;
+    });
+    photographs.load(1);
+    return photographs;
+  };
+  const auto trained = [&](float red) {
+    Photographs photographs = masked(red);
+    TrainingConfig config = short_training(30);
+    config.background = Background::kBlack;
+    Trainer trainer(config, photographs, 3.3, start(1));
+    while (!trainer.done()) trainer.step();
+    return trainer.cloud();
+  };
+  const GaussianCloud cloud = trained(0.5F);
+  const bool same = cloud.means == trained(1).means && cloud.sh_coeffs == trained(1).sh_coeffs;
+  CHECK(same);
+  const auto quality = [&](const Photographs& photographs) {
+    return mean_quality(qualities(activate(cloud), photographs, glm::vec3(0)));
+  };
+  const Quality half = quality(masked(0.5F)), red = quality(masked(1));
+  CHECK(half.psnr_db == red.psnr_db);
+  CHECK(half.ssim == red.ssim);
+}
+
+TEST_CASE("quality: over the pixels that count alone") {
+  Image a(30, 12), b(30, 12);
+  std::vector<std::uint8_t> counts(30 * 12, 0);
+  double squares = 0;
+  int counted = 0;
+  for (int y = 0; y < 12; ++y) {
+    for (int x = 0; x < 30; ++x) {
+      a.at(x, y) = glm::vec3(0.02F * static_cast<float>(x), 0.5F, 0.3F);
+      b.at(x, y) = x < 10 ? glm::vec3(1, 0, 1) : a.at(x, y) + glm::vec3(0.1F, 0, 0);
+      counts[static_cast<std::size_t>(30 * y + x)] = x >= 10;
+      if (x < 10) continue;
+      squares += 0.01;
+      counted += 3;
+    }
+  }
+  CHECK(quality_of(a, b, counts).psnr_db == Approx(-10 * std::log10(squares / counted)));
+  CHECK(quality_of(a, a, counts).ssim == Approx(1));
+  CHECK(quality_of(a, b, counts).ssim < 0.99);
+  CHECK(quality_of(a, b, counts).psnr_db > psnr_db(a, b) + 5);
+  CHECK(quality_of(a, b, {}).psnr_db == psnr_db(a, b));
 }
 
 TEST_CASE("training: photographs keep 8 bits exactly and know whether they are transparent") {

@@ -3,6 +3,7 @@
 #include "testbench/streaminggs/run/camera_path.h"
 
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -52,7 +53,7 @@ TEST_CASE("camera path: frames between keys, by table") {
                                          {true, 3, {0, 2, 6}},
                                          {true, 6, {0, 1, 2, 4, 6, 3}}}) {
     INFO(row.closed << " " << row.count);
-    const CameraPath path{"p", {at_x(0, 100), at_x(2, 200), at_x(6, 400)}, row.closed};
+    const CameraPath path{"p", {at_x(0, 100), at_x(2, 200), at_x(6, 400)}, row.closed, ""};
     const std::vector<Camera> frames = frames_along(path, row.count);
     REQUIRE(frames.size() == row.xs.size());
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -64,7 +65,7 @@ TEST_CASE("camera path: frames between keys, by table") {
       CHECK(frames[i].id == static_cast<int>(i));
     }
   }
-  CameraPath mixed{"p", {at_x(0), at_x(1)}, false};
+  CameraPath mixed{"p", {at_x(0), at_x(1)}, false, ""};
   mixed.keys[1].height = 99;
   CHECK(input_error_of([&] { frames_along(mixed, 3); }) ==
         "p: camera 1: got 640x99 px, expected the 640x360 of the first, or --size for all");
@@ -81,6 +82,19 @@ TEST_CASE("camera path: files and built-in ways, by table") {
   CHECK_FALSE(read(cameras).closed);
   CHECK(read({{"cameras", cameras}}).keys[2].position.x == 6);
   CHECK(read({{"cameras", cameras}, {"closed", true}}).closed);
+  const auto pose = [](double x) {
+    return json{{"camera_to_world", {1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}, {"fov", 90}};
+  };
+  const CameraPath of_nerfstudio = read({{"render_width", 640},
+                                         {"render_height", 360},
+                                         {"camera_path", {pose(0), pose(3), pose(5)}}});
+  REQUIRE(of_nerfstudio.keys.size() == 3);
+  CHECK_FALSE(of_nerfstudio.closed);
+  CHECK(of_nerfstudio.keys[1].position.x == 3);
+  CHECK(of_nerfstudio.keys[1].focal_x == Approx(180));
+  std::filesystem::create_directory(scratch.path("set"));
+  scratch.write("set/cameras.json", cameras.dump());
+  CHECK(read_camera_path(scratch.path("set"), "scene.ply").keys.size() == 3);
 
   struct Row {
     json document;
