@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "algorithm/files/input_error.h"
+#include "algorithm/scene/ply_reader.h"
 
 namespace sgs {
 
@@ -19,14 +20,15 @@ bool is_scene_file(const std::string& path) {
   return extension == ".ply";
 }
 
-Scene load_scene(const std::string& path, const PlyReadOptions& options) {
+Scene load_scene(const std::string& path, const SceneReadOptions& options) {
   const std::filesystem::path file(path);
   if (!is_scene_file(path)) {
     throw InputError(fmt::format("{}: got the extension \"{}\", expected a .ply file", path,
                                  file.extension().string()));
   }
-  PlyReadResult read = read_ply(path, options);
-  return {file.stem().string(), std::move(read.cloud), {}, read.dropped_invalid};
+  SceneContents read = read_ply(path, options);
+  return {
+      file.stem().string(), std::move(read.cloud), {}, read.dropped_invalid, std::move(read.notes)};
 }
 
 }  // namespace sgs

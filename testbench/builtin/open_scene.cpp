@@ -11,7 +11,7 @@
 
 namespace sgs {
 
-Scene open_scene(const std::string& spec, const PlyReadOptions& options) {
+Scene open_scene(const std::string& spec, const SceneReadOptions& options) {
   if (is_builtin_scene(spec)) {
     BuiltinScene made = make_builtin_scene(spec);
     const std::size_t begin = spec.find(':') + 1;

@@ -69,11 +69,12 @@ SubCommand add_info_command(CommandLine& line, const Kinds& kinds) {
                    readers_of(kinds, packed->storage.order));
       return 0;
     }
-    const Scene scene = arguments->load();
+    const Scene scene = arguments->load_silently();
     const SceneSummary s = summarise(scene.cloud);
     const auto print = [](const char* name, const std::string& value, const char* unit = "") {
       fmt::print("{:<26}{}{}\n", name, value, unit);
     };
+    for (const std::string& note : scene.notes) print("note", one_line(note));
     print("gaussians", grouped(s.count));
     print("dropped invalid", grouped(scene.dropped_invalid), " Gaussians");
     print("sh degree", std::to_string(s.sh_degree));

@@ -22,7 +22,7 @@ const std::vector<FuzzedReader>& fuzzed_readers() {
   static const std::vector<FuzzedReader> readers = {
       {"ply", "a.ply",
        [](const std::string& folder) {
-         PlyReadOptions dropping;
+         SceneReadOptions dropping;
          dropping.drop_invalid = true;
          read_ply(folder + "/a.ply", dropping);
          read_ply(folder + "/a.ply");

@@ -147,6 +147,14 @@ void SceneArguments::check_file() const {
 }
 
 Scene SceneArguments::load() const {
+  Scene loaded = load_silently();
+  for (const std::string& note : loaded.notes) {
+    fmt::print(stderr, "streaminggs: note: {}\n", one_line(scene + ": " + note));
+  }
+  return loaded;
+}
+
+Scene SceneArguments::load_silently() const {
   check_file();
   Scene loaded = while_doing("reading " + scene, [&] { return open_scene(scene, {drop_invalid}); });
   if (loaded.dropped_invalid > 0 && loaded.cloud.size() == 0) {

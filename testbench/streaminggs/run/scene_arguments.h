@@ -54,8 +54,11 @@ struct SceneArguments {
 
   // Throws InputError when SCENE is neither a built-in one nor a .ply file that is there.
   void check_file() const;
-  // Throws InputError, also when check_file() does, or when --drop-invalid leaves nothing.
+  // Throws InputError, also when check_file() does, or when --drop-invalid leaves nothing. What is
+  // to be noted of the file goes to stderr.
   Scene load() const;
+  // The same without a word.
+  Scene load_silently() const;
   // The scene where it is a file made by pack, else nothing. Throws InputError, also for arguments
   // that only a scene that is not packed yet can take.
   std::optional<PackedScene> load_packed() const;
