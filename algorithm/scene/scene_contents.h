@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,8 @@ struct SceneReadOptions {
   // Leave out Gaussians with NaN, infinite values, values beyond gaussian_cloud.h or a zero
   // quaternion instead of refusing the file.
   bool drop_invalid = false;
+  // Of a scene with levels of detail, 0 the finest, which is also the default.
+  std::optional<std::uint32_t> level = {};
 };
 
 struct SceneContents {

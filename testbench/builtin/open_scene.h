@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "algorithm/scene/load_scene.h"
+#include "algorithm/scene_files/load_scene.h"
 
 namespace sgs {
 

@@ -42,9 +42,11 @@ void print_voxels(const ActivatedCloud& cloud) {
 
 void print_dataset_in(const SceneArguments& arguments) {
   const std::string& folder = arguments.scene;
-  if (arguments.drop_invalid) {
+  for (const char* given : {arguments.drop_invalid ? "--drop-invalid" : nullptr,
+                            arguments.level ? "--level" : nullptr}) {
+    if (given == nullptr) continue;
     throw InputError(
-        fmt::format("--drop-invalid: {} is a folder of photographs, expected a scene", folder));
+        fmt::format("{}: {} is a folder of photographs, expected a scene", given, folder));
   }
   print_dataset(while_doing("reading " + folder, [&] { return open_dataset(folder); }));
 }
@@ -54,11 +56,13 @@ void print_dataset_in(const SceneArguments& arguments) {
 SubCommand add_info_command(CommandLine& line, const Kinds& kinds) {
   auto arguments = std::make_shared<SceneArguments>();
   arguments->add_scene_to(line,
-                          "a .ply file, builtin:NAME?n=COUNT, a .sgs file made by pack, or the "
-                          "folder of a data set");
+                          "a scene (.ply, .spz, .sog, .splat, .ksplat, .glb, a SOG folder), "
+                          "builtin:NAME?n=COUNT, a .sgs file made by pack, or the folder of a data "
+                          "set");
   return [arguments, &kinds] {
     std::error_code unknown;
-    if (std::filesystem::is_directory(arguments->scene, unknown)) {
+    if (std::filesystem::is_directory(arguments->scene, unknown) &&
+        !is_scene_file(arguments->scene)) {
       print_dataset_in(*arguments);
       return 0;
     }
@@ -74,6 +78,7 @@ SubCommand add_info_command(CommandLine& line, const Kinds& kinds) {
     const auto print = [](const char* name, const std::string& value, const char* unit = "") {
       fmt::print("{:<26}{}{}\n", name, value, unit);
     };
+    if (!scene.form.empty()) print("form", scene.form);
     for (const std::string& note : scene.notes) print("note", one_line(note));
     print("gaussians", grouped(s.count));
     print("dropped invalid", grouped(scene.dropped_invalid), " Gaussians");

@@ -33,6 +33,7 @@ constexpr Help kHelp[] = {
     {"compare", "PSNR, SSIM and largest error of two images"},
     {"photographs", "write the test views of a data set as files"},
     {"gpu", "model the original rasteriser on a mobile GPU"},
+    {"convert", "write a scene of any form as an INRIA .ply"},
     {"info", "print what a scene holds"},
     {"describe", "print the data sheets and the configuration of a machine"},
 };

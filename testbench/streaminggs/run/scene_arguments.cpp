@@ -20,6 +20,7 @@
 namespace sgs {
 namespace {
 
+constexpr std::uint32_t kMostLevel = 1000;
 constexpr int kMaxSizePx = 65536;  // sub-tile bounds are 16-bit numbers
 
 bool read_int(const std::string& text, int& value) {
@@ -85,14 +86,16 @@ std::vector<int> chosen_numbers(const std::string& view, int count) {
 void SceneArguments::add_scene_to(CommandLine& line, const char* forms) {
   scene_forms = forms;
   line.text("SCENE", scene, forms, Given::kAlways);
-  add_dropping_to(line);
+  add_reading_to(line);
 }
 
-void SceneArguments::add_dropping_to(CommandLine& line) {
+void SceneArguments::add_reading_to(CommandLine& line) {
   line.flag(
       "--drop-invalid", drop_invalid,
       "leave out Gaussians with values that are not finite or too large to be drawn, and count "
       "them");
+  line.whole("--level", level, 0, kMostLevel,
+             "of a scene with levels of detail, from 0, the finest, which is the default");
 }
 
 void SceneArguments::add_views_to(CommandLine& line) {
@@ -127,7 +130,7 @@ std::string SceneArguments::default_out(const std::string& config_name) const {
 }
 
 void SceneArguments::add_inputs_to(OutputPlan& plan) const {
-  plan.add_input(scene);
+  for (const std::string& file : files_of_scene(scene)) plan.add_input(file);
   plan.add_input(cameras_path);
 }
 
@@ -137,13 +140,12 @@ void SceneArguments::check_file() const {
   if (!std::filesystem::exists(scene, unknown)) {
     throw InputError(fmt::format("{}: no such file, expected {}", scene, scene_forms));
   }
+  if (is_scene_file(scene)) return;
   if (std::filesystem::is_directory(scene, unknown)) {
     throw InputError(fmt::format("{}: got a folder, expected {}", scene, scene_forms));
   }
-  if (!is_scene_file(scene)) {
-    throw InputError(fmt::format("{}: got the extension \"{}\", expected {}", scene,
-                                 std::filesystem::path(scene).extension().string(), scene_forms));
-  }
+  throw InputError(fmt::format("{}: got the extension \"{}\", expected {}", scene,
+                               std::filesystem::path(scene).extension().string(), scene_forms));
 }
 
 Scene SceneArguments::load() const {
@@ -156,7 +158,9 @@ Scene SceneArguments::load() const {
 
 Scene SceneArguments::load_silently() const {
   check_file();
-  Scene loaded = while_doing("reading " + scene, [&] { return open_scene(scene, {drop_invalid}); });
+  Scene loaded = while_doing("reading " + scene, [&] {
+    return open_scene(scene, {drop_invalid, level});
+  });
   if (loaded.dropped_invalid > 0 && loaded.cloud.size() == 0) {
     throw InputError(
         fmt::format("{}: --drop-invalid leaves none of {} Gaussians, expected one or more", scene,
@@ -172,6 +176,7 @@ std::optional<PackedScene> SceneArguments::load_packed() const {
                                  argument, scene));
   };
   if (drop_invalid) refuse("--drop-invalid");
+  if (level) refuse("--level");
   if (!weigh_by.empty()) refuse("--weigh-by");
   return while_doing("reading " + scene, [&] { return read_image_file(scene); });
 }
