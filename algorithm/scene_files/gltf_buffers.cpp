@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_file.h"

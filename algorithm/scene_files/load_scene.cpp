@@ -110,22 +110,21 @@ const char* remedy_for(const Place& place) {
   return "";
 }
 
-// "room" of room.spz and of room/meta.json.
-std::string name_of(const std::string& path) {
-  const fs::path file(path);
-  const std::string name = file.filename().string();
-  if (name == kSogMeta || name == kStreamedSogMeta) {
-    return fs::absolute(file).lexically_normal().parent_path().filename().string();
-  }
-  return file.has_filename() ? file.stem().string() : file.parent_path().filename().string();
-}
-
 }  // namespace
 
 std::string scene_endings() {
   std::vector<std::string> endings;
   for (const Form& form : kForms) endings.emplace_back(form.endings);
   return join(endings);
+}
+
+std::string scene_name(const std::string& path) {
+  const fs::path file(path);
+  const std::string name = file.filename().string();
+  if (name == kSogMeta || name == kStreamedSogMeta) {
+    return fs::absolute(file).lexically_normal().parent_path().filename().string();
+  }
+  return file.has_filename() ? file.stem().string() : file.parent_path().filename().string();
 }
 
 bool is_scene_file(const std::string& path) { return form_of(place_of(path)) != nullptr; }
@@ -145,8 +144,8 @@ Scene load_scene(const std::string& path, const SceneReadOptions& options) {
                     path, *options.level, form->name, kStreamedSogMeta));
   }
   SceneContents read = form->read(path, options);
-  return {name_of(path), std::move(read.cloud), {}, read.dropped_invalid,
-          form->name,    std::move(read.notes)};
+  return {scene_name(path), std::move(read.cloud), {}, read.dropped_invalid,
+          form->name,       std::move(read.notes)};
 }
 
 std::vector<std::string> files_of_scene(const std::string& path) {

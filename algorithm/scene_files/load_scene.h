@@ -12,13 +12,17 @@
 namespace sgs {
 
 struct Scene {
-  std::string name;  // file name without folder and extension
+  std::string name;
   GaussianCloud cloud;
   std::vector<Camera> cameras;          // where the source brings some; a file does not
   std::uint64_t dropped_invalid = 0;    // Gaussians left out, see SceneReadOptions
   std::string form = {};                // of the file, in words
   std::vector<std::string> notes = {};  // see SceneContents
 };
+
+// The name of a scene: that of its file without folder and extension, of its folder where that is
+// the scene. "room" of room.spz and of room/meta.json.
+std::string scene_name(const std::string& path);
 
 // True where there is something at `path` that begins, or is named, as a form of scene does.
 bool is_scene_file(const std::string& path);

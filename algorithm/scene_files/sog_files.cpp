@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "algorithm/files/input_error.h"
+#include "algorithm/files/input_file.h"
 #include "algorithm/files/input_json.h"
 #include "algorithm/scene/ply_kinds.h"
 #include "algorithm/scene_files/decoded_scene.h"
@@ -195,7 +197,15 @@ void add_files(const JsonFields& node, const std::string& level, std::uint64_t f
 
 }  // namespace
 
-bool is_sog_folder(const std::string& path) { return !named_file(path, kSogMeta).empty(); }
+bool is_sog_folder(const std::string& path) {
+  const std::string meta = named_file(path, kSogMeta);
+  if (meta.empty() || meta == path) return !meta.empty();
+  // Folders of photographs may have a meta.json, too.
+  constexpr std::uint64_t kMostBytes = 1 << 20;
+  std::error_code unknown;
+  return fs::is_regular_file(meta, unknown) &&
+         InputFile(meta).text_from(0, kMostBytes).find("\"means\"") != std::string::npos;
+}
 bool is_streamed_sog(const std::string& path) {
   return !named_file(path, kStreamedSogMeta).empty();
 }

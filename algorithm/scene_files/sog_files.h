@@ -10,7 +10,7 @@ namespace sgs {
 constexpr const char* kSogMeta = "meta.json";
 constexpr const char* kStreamedSogMeta = "lod-meta.json";
 
-// By name: one of the two files above, or a folder that holds it.
+// One of the two files above by its name, or a folder that holds it.
 bool is_sog_folder(const std::string& path);
 bool is_streamed_sog(const std::string& path);
 

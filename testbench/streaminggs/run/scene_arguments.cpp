@@ -121,7 +121,7 @@ void SceneArguments::add_cache_to(CommandLine& line) {
 }
 
 std::string SceneArguments::default_out(const std::string& config_name) const {
-  std::string name = std::filesystem::path(scene).stem().string();
+  std::string name = scene_name(scene);
   if (is_builtin_scene(scene)) {
     name = scene.substr(scene.find(':') + 1);
     name = name.substr(0, name.find('?'));

@@ -105,6 +105,12 @@ TEST_CASE("sog: a level of a streamed scene") {
              Contains("got 3 Gaussians, expected 2"));
 }
 
+TEST_CASE("sog: a folder whose meta.json is of something else is no scene") {
+  const test::ScratchFolder scratch;
+  write_parts(scratch, "photographs", {{"meta.json", R"({"camera": "phone"})"}});
+  CHECK_FALSE(is_scene_file(scratch.path("photographs")));
+}
+
 TEST_CASE("sog refuses: a level where there are none") {
   const test::ScratchFolder scratch;
   scratch.write("a.sog", test::zip_bytes(test::sog_parts(3, 0)));
