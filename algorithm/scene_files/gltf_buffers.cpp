@@ -127,26 +127,24 @@ void GltfBuffers::read_glb() {
   check(has_json, "a .glb without JSON", "it in the first chunk");
 }
 
-std::string GltfBuffers::buffer_bytes(std::uint64_t index) const {
+std::string_view GltfBuffers::buffer_bytes(std::uint64_t index) {
   const JsonFields buffer = item("buffers", index);
   const std::uint64_t size = buffer.whole("byteLength", kMostBytes);
-  std::string bytes;
-  if (!buffer.has("uri")) {
-    bytes = binary_;
-  } else {
+  std::string_view bytes = binary_;
+  if (buffer.has("uri")) {
     const std::string uri = buffer.text("uri");
     const std::size_t base64 = uri.find(";base64,");
     if (uri.compare(0, 5, "data:") == 0 && base64 != std::string::npos) {
-      bytes = from_base64(buffer.origin(), std::string_view(uri).substr(base64 + 8));
+      others_.push_back(from_base64(buffer.origin(), std::string_view(uri).substr(base64 + 8)));
     } else {
-      bytes = open_folder_of(path_)->bytes(uri);
+      others_.push_back(open_folder_of(path_)->bytes(uri));
     }
+    bytes = others_.back();
   }
   if (bytes.size() < size) {
     buffer.refuse("byteLength", fmt::format("at most the {} bytes that are there", bytes.size()));
   }
-  bytes.resize(size);
-  return bytes;
+  return bytes.substr(0, size);
 }
 
 std::uint64_t GltfBuffers::count(const std::string& name) const {
@@ -168,14 +166,14 @@ std::string_view GltfBuffers::view(std::uint64_t index) const {
   }
   const std::uint64_t buffer = view.whole("buffer");
   item("buffers", buffer);
-  const std::string& bytes = buffers_[buffer];
+  const std::string_view bytes = buffers_[buffer];
   const std::uint64_t offset = view.whole_or("byteOffset", 0, kMostBytes);
   const std::uint64_t size = view.whole("byteLength", kMostBytes);
   if (offset > bytes.size() || size > bytes.size() - offset) {
     view.refuse("byteLength", fmt::format("at most what buffer {} of {} bytes has from byte {} on",
                                           buffer, bytes.size(), offset));
   }
-  return std::string_view(bytes).substr(offset, size);
+  return bytes.substr(offset, size);
 }
 
 GltfAccessor GltfBuffers::accessor(std::uint64_t index, int components) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -43,14 +44,15 @@ class GltfBuffers {
 
  private:
   void read_glb();
-  std::string buffer_bytes(std::uint64_t index) const;
+  std::string_view buffer_bytes(std::uint64_t index);
 
   std::string path_;
   std::string file_;
   std::string_view binary_;  // the binary chunk of a .glb
   nlohmann::ordered_json json_;
   std::optional<JsonFields> root_;
-  std::vector<std::string> buffers_;
+  std::deque<std::string> others_;  // bytes that do not stand in the file itself
+  std::vector<std::string_view> buffers_;
 };
 
 }  // namespace sgs
