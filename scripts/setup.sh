@@ -9,7 +9,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . scripts/debian_packages.sh
 install_missing g++ cmake ninja-build pkg-config libsystemc-dev libglm-dev libopenexr-dev catch2 \
   libcli11-dev libcereal-dev nlohmann-json3-dev libfmt-dev libpng-dev libjpeg62-turbo-dev libtiff-dev libwebp-dev \
-  libtbb-dev libnanoflann-dev libboost-dev libxxhash-dev zlib1g-dev xz-utils python3
+  libtbb-dev libnanoflann-dev libboost-dev libxxhash-dev libzip-dev libzstd-dev zlib1g-dev xz-utils python3
 
 preset=${1:-release}
 targets=("${@:2}")

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
@@ -19,6 +20,7 @@ namespace sgs {
 namespace {
 
 constexpr const char* kBlanks = " \t\r\v\f";
+constexpr std::size_t kMaxColumns = kFilterSlot + 1;
 
 // Lines of a text with something on them, counted as in the file.
 class RecordLines {
@@ -75,6 +77,20 @@ bool parse_float(std::string_view word, float& value) {
   return true;
 }
 
+// slots: one a column.
+void store_row(const VertexLayout& layout, float* slots, std::uint64_t index, GaussianCloud& cloud,
+               std::vector<VertexFault>& faults) {
+  if (layout.has_filter) {
+    const float filter = slots[layout.columns.size() - 1];
+    if (!(std::abs(filter) <= static_cast<float>(kMaxScale))) {
+      faults.push_back({index, kFilterSlot, filter});
+      return;
+    }
+    bake_filter(filter, slots);
+  }
+  store_vertex(slots, index, cloud, faults);
+}
+
 }  // namespace
 
 std::vector<VertexFault> read_ascii_vertices(const InputFile& file, const PlyHeader& header,
@@ -84,7 +100,7 @@ std::vector<VertexFault> read_ascii_vertices(const InputFile& file, const PlyHea
   RecordLines lines(file.path(), text, header.line_count);
   std::vector<std::string_view> words;
   std::vector<VertexFault> faults;
-  std::array<float, kMaxSlots> slots;
+  std::array<float, kMaxColumns> slots;
   for (std::size_t e = 0; e < header.elements.size(); ++e) {
     const PlyElement& element = header.elements[e];
     for (std::uint64_t record = 0; record < element.count; ++record) {
@@ -106,10 +122,10 @@ std::vector<VertexFault> read_ascii_vertices(const InputFile& file, const PlyHea
         if (!parse_float(word, slots[slot])) {
           throw InputError(fmt::format("{}: line {}: got \"{}\" for {}, expected a number",
                                        file.path(), lines.line_number(), word.substr(0, 40),
-                                       slot_name(static_cast<int>(slot))));
+                                       element.properties[layout.columns[slot].property].name));
         }
       }
-      store_vertex(slots.data(), record, cloud, faults);
+      store_row(layout, slots.data(), record, cloud, faults);
     }
   }
   if (std::string_view line; lines.next(line)) {
@@ -188,8 +204,9 @@ void skip_element(const InputFile& file, PlyFormat format, const PlyElement& ele
 // Converts all vertices with `decode(record, slots)`, blocks in parallel.
 template <typename Decode>
 std::vector<VertexFault> read_blocks(const InputFile& file, std::uint64_t offset_bytes,
-                                     std::uint64_t record_bytes, const Decode& decode,
+                                     const VertexLayout& layout, const Decode& decode,
                                      GaussianCloud& cloud) {
+  const std::uint64_t record_bytes = layout.record_bytes;
   const std::uint64_t block_records = std::max<std::uint64_t>(1, kBlockBytes / record_bytes);
   const std::uint64_t blocks = (cloud.size() + block_records - 1) / block_records;
   std::vector<std::vector<VertexFault>> faults(blocks);
@@ -198,10 +215,10 @@ std::vector<VertexFault> read_blocks(const InputFile& file, std::uint64_t offset
     const std::uint64_t end = std::min<std::uint64_t>(cloud.size(), begin + block_records);
     std::vector<char> records((end - begin) * record_bytes);
     file.read_at(offset_bytes + begin * record_bytes, records.data(), records.size());
-    std::array<float, kMaxSlots> slots;
+    std::array<float, kMaxColumns> slots;
     for (std::uint64_t i = begin; i < end; ++i) {
       decode(&records[(i - begin) * record_bytes], slots.data());
-      store_vertex(slots.data(), i, cloud, faults[block]);
+      store_row(layout, slots.data(), i, cloud, faults[block]);
     }
   });
   std::vector<VertexFault> all;
@@ -234,7 +251,7 @@ std::vector<VertexFault> read_binary_vertices(const InputFile& file, const PlyHe
       });
   if (plain_floats) {
     return read_blocks(
-        file, vertex_offset_bytes, layout.record_bytes,
+        file, vertex_offset_bytes, layout,
         [&columns](const char* record, float* slots) {
           for (const auto& column : columns) {
             std::memcpy(slots++, record + column.offset_bytes, sizeof(float));
@@ -243,7 +260,7 @@ std::vector<VertexFault> read_binary_vertices(const InputFile& file, const PlyHe
         cloud);
   }
   return read_blocks(
-      file, vertex_offset_bytes, layout.record_bytes,
+      file, vertex_offset_bytes, layout,
       [&columns, format = header.format](const char* record, float* slots) {
         for (const auto& column : columns) {
           *slots++ = load_ply_scalar<float>(format, record + column.offset_bytes, column.type);

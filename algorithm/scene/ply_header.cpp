@@ -65,7 +65,11 @@ class HeaderParser {
     while (true) {
       const std::string_view line = next_line();
       const std::vector<std::string_view> words = words_of(line);
-      if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+      if (words.empty() || words[0] == "obj_info") continue;
+      if (words[0] == "comment") {
+        header_.comments.emplace_back(line.substr(line.find("comment") + 7));
+        continue;
+      }
       if (words[0] == "end_header") break;
       if (words[0] == "format") {
         read_format(words, line);

@@ -40,6 +40,7 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::kAscii;
   std::vector<PlyElement> elements;
+  std::vector<std::string> comments;    // without the word itself
   std::uint64_t body_offset_bytes = 0;  // first byte after end_header
   std::uint64_t line_count = 0;         // lines of the header, end_header included
 };

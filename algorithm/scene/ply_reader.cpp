@@ -10,11 +10,12 @@
 #include "algorithm/files/input_file.h"
 #include "algorithm/scene/ply_body.h"
 #include "algorithm/scene/ply_header.h"
+#include "algorithm/scene/ply_kinds.h"
 #include "algorithm/scene/ply_vertex.h"
 
 namespace sgs {
 
-PlyReadResult read_ply(const std::string& path, const PlyReadOptions& options) {
+SceneContents read_ply(const std::string& path, const SceneReadOptions& options) {
   const InputFile file(path);
   const PlyHeader header = read_ply_header(file);
   const auto vertex =
@@ -25,18 +26,17 @@ PlyReadResult read_ply(const std::string& path, const PlyReadOptions& options) {
                                  path, header.line_count));
   }
   const auto vertex_element = static_cast<std::size_t>(vertex - header.elements.begin());
+  refuse_other_kinds(path, header, *vertex);
   const VertexLayout layout = layout_of_vertex(path, *vertex);
 
-  PlyReadResult result;
+  SceneContents result;
+  result.notes = notes_on_ply(header, *vertex);
   result.cloud.resize(vertex->count, layout.sh_degree);
   const auto read_vertices =
       header.format == PlyFormat::kAscii ? read_ascii_vertices : read_binary_vertices;
   const std::vector<VertexFault> faults =
       read_vertices(file, header, vertex_element, layout, result.cloud);
-  if (faults.empty()) return result;
-  if (!options.drop_invalid) throw InputError(describe_fault(path, faults.front()));
-  remove_faulty(faults, result.cloud);
-  result.dropped_invalid = faults.size();
+  settle_faults(path, faults, options, result);
   return result;
 }
 

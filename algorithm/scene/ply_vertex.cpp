@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -31,6 +32,7 @@ int degree_of_rest_count(std::size_t rest) {
 
 std::string slot_name(int slot) {
   if (slot < kRestSlot) return kNames[slot];
+  if (slot == kFilterSlot) return kFilterProperty;
   return fmt::format("f_rest_{}", slot - kRestSlot);
 }
 
@@ -54,10 +56,11 @@ VertexLayout layout_of_vertex(const std::string& path, const PlyElement& vertex)
   layout.record_bytes = offset_bytes;
   layout.sh_degree = degree_of_rest_count(rest_count);
   if (layout.sh_degree < 0) {
-    throw InputError(
-        fmt::format("{}: element vertex: got {} properties f_rest_*, expected 0, 9, 24 or 45 (SH "
-                    "degree 0 to 3)",
-                    path, rest_count));
+    throw InputError(fmt::format(
+        "{}: element vertex: got {} properties f_rest_*, expected 0, 9, 24 or 45 (SH "
+        "degree 0 to 3){}",
+        path, rest_count,
+        rest_count == 72 ? "; 72 are SH degree 4: export the scene with degree 3" : ""));
   }
   for (int slot = 0; slot < kRestSlot + static_cast<int>(rest_count); ++slot) {
     const auto found = by_name.find(slot_name(slot));
@@ -68,6 +71,10 @@ VertexLayout layout_of_vertex(const std::string& path, const PlyElement& vertex)
                       path, slot_name(slot)));
     }
     layout.columns.push_back(found->second);
+  }
+  if (const auto found = by_name.find(kFilterProperty); found != by_name.end()) {
+    layout.columns.push_back(found->second);
+    layout.has_filter = true;
   }
   return layout;
 }
@@ -83,10 +90,13 @@ constexpr std::uint32_t magnitude_bits(float value) {
 constexpr std::array<std::uint32_t, kMaxSlots> largest_magnitudes() {
   std::array<std::uint32_t, kMaxSlots> largest{};
   for (int slot = 0; slot < kMaxSlots; ++slot) {
-    const bool finite_is_enough = slot >= kOpacitySlot && slot < kRestSlot;
-    const double limit = slot < kDcSlot ? kMaxCoordinate : kMaxCoefficient;
-    largest[slot] = magnitude_bits(finite_is_enough ? std::numeric_limits<float>::max()
-                                                    : static_cast<float>(limit));
+    const double limit = slot < kDcSlot        ? kMaxCoordinate
+                         : slot < kOpacitySlot ? kMaxCoefficient
+                         // Activations make something of infinities, too.
+                         : slot < kRotationSlot ? std::numeric_limits<double>::infinity()
+                         : slot < kRestSlot     ? std::numeric_limits<float>::max()
+                                                : kMaxCoefficient;
+    largest[slot] = magnitude_bits(static_cast<float>(limit));
   }
   return largest;
 }
@@ -117,11 +127,12 @@ bool is_zero_quaternion(const float* rotation) {
 }
 
 std::string expected_of(const VertexFault& fault) {
+  const bool is_scale = fault.slot >= kScaleSlot && fault.slot < kRotationSlot;
+  if (fault.slot == kFilterSlot) return fmt::format("a magnitude of at most {}", kMaxScale);
+  if (std::isnan(fault.value) && (is_scale || fault.slot == kOpacitySlot)) return "a number";
+  if (is_scale) return fmt::format("at most {}, the logarithm of {}", kMaxLogScale, kMaxScale);
   if (!std::isfinite(fault.value)) return "a finite number";
   if (fault.slot < kDcSlot) return fmt::format("a magnitude of at most {}", kMaxCoordinate);
-  if (fault.slot >= kScaleSlot && fault.slot < kRotationSlot) {
-    return fmt::format("at most {}, the logarithm of {}", kMaxLogScale, kMaxScale);
-  }
   return fmt::format("a magnitude of at most {}", kMaxCoefficient);
 }
 
@@ -151,6 +162,24 @@ void store_vertex(const float* slots, std::uint64_t index, GaussianCloud& cloud,
   }
 }
 
+void bake_filter(float filter, float* slots) {
+  const auto is_faulty = [](float scale) { return !(scale <= static_cast<float>(kMaxLogScale)); };
+  if (filter == 0 || std::any_of(slots + kScaleSlot, slots + kRotationSlot, is_faulty)) return;
+  const double variance = static_cast<double>(filter) * static_cast<double>(filter);
+  double kept = 1;  // of the square of the opacity
+  for (int slot = kScaleSlot; slot < kRotationSlot; ++slot) {
+    const double scale = std::exp(static_cast<double>(slots[slot]));
+    const double wider = scale * scale + variance;
+    kept *= scale * scale / wider;
+    slots[slot] = static_cast<float>(0.5 * std::log(wider));
+  }
+  const double opacity = sigmoid(static_cast<double>(slots[kOpacitySlot])) * std::sqrt(kept);
+  slots[kOpacitySlot] = static_cast<float>(logit(opacity));
+}
+
+namespace {
+
+// One line on `fault`: file, vertex, property, value, what was expected.
 std::string describe_fault(const std::string& path, const VertexFault& fault) {
   if (fault.slot == kRotationSlot && fault.value == 0) {
     return fmt::format(
@@ -161,6 +190,7 @@ std::string describe_fault(const std::string& path, const VertexFault& fault) {
                      slot_name(fault.slot), fault.value, expected_of(fault));
 }
 
+// The others keep their order.
 void remove_faulty(const std::vector<VertexFault>& faults, GaussianCloud& cloud) {
   const auto coeffs = static_cast<std::size_t>(sh_coeff_count(cloud.sh_degree));
   std::size_t kept = 0;
@@ -180,6 +210,16 @@ void remove_faulty(const std::vector<VertexFault>& faults, GaussianCloud& cloud)
     ++kept;
   }
   cloud.resize(kept, cloud.sh_degree);
+}
+
+}  // namespace
+
+void settle_faults(const std::string& path, const std::vector<VertexFault>& faults,
+                   const SceneReadOptions& options, SceneContents& contents) {
+  if (faults.empty()) return;
+  if (!options.drop_invalid) throw InputError(describe_fault(path, faults.front()));
+  remove_faulty(faults, contents.cloud);
+  contents.dropped_invalid = faults.size();
 }
 
 }  // namespace sgs

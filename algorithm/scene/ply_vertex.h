@@ -9,6 +9,7 @@
 
 #include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/scene/ply_header.h"
+#include "algorithm/scene/scene_contents.h"
 
 namespace sgs {
 
@@ -20,14 +21,20 @@ constexpr int kMeanSlot = 0, kDcSlot = 3, kOpacitySlot = 6, kScaleSlot = 7, kRot
 // Name of the property that fills a slot.
 std::string slot_name(int slot);
 
+// Mip-Splatting's size of the smoothing filter of a Gaussian, in world units: in no cloud, but in
+// the scales and the opacity that it holds.
+constexpr int kFilterSlot = kMaxSlots;
+constexpr const char* kFilterProperty = "filter_3D";
+
 struct VertexLayout {
   struct Column {
     std::size_t property = 0;        // index among the element's properties
     std::uint32_t offset_bytes = 0;  // in a binary record
     PlyScalar type = PlyScalar::kFloat32;
   };
-  std::vector<Column> columns;  // one a slot
-  int sh_degree = 0;            // 0 to 3, from the number of f_rest
+  std::vector<Column> columns;  // one a slot, then filter_3D where there is one
+  bool has_filter = false;
+  int sh_degree = 0;  // 0 to 3, from the number of f_rest
   std::uint64_t record_bytes = 0;
 };
 
@@ -35,8 +42,15 @@ struct VertexLayout {
 // one is missing or a list, or when the count of f_rest fits no SH degree; `path` is for the text.
 VertexLayout layout_of_vertex(const std::string& path, const PlyElement& vertex);
 
-// A vertex that cannot be used: the slot with a value that is not finite or beyond
-// gaussian_cloud.h, or kRotationSlot with the value 0 when the quaternion has length zero.
+// Widens the Gaussian by `filter` along each axis and dims it by as much, as Mip-Splatting bakes
+// its 3D filter (Yu et al. 2024, get_scaling_with_3D_filter, get_opacity_with_3D_filter):
+// s' = sqrt(s^2 + f^2), opacity' = opacity sqrt(prod s^2 / prod s'^2). 0 changes nothing, nor
+// does it where a scale is one that store_vertex() faults.
+void bake_filter(float filter, float* slots);
+
+// A vertex that cannot be used: the slot with a value that activation makes no number of or that is
+// beyond gaussian_cloud.h, or kRotationSlot with the value 0 when the quaternion has length zero.
+// An opacity logit may be infinite (opacity 1 or 0), a logarithm of a scale -infinite (flat).
 struct VertexFault {
   std::uint64_t vertex = 0;
   int slot = 0;
@@ -49,10 +63,9 @@ struct VertexFault {
 void store_vertex(const float* slots, std::uint64_t index, GaussianCloud& cloud,
                   std::vector<VertexFault>& faults);
 
-// One line on `fault`: file, vertex, property, value, what was expected.
-std::string describe_fault(const std::string& path, const VertexFault& fault);
-
-// Removes the vertices of `faults` (ascending, each once); the others keep their order.
-void remove_faulty(const std::vector<VertexFault>& faults, GaussianCloud& cloud);
+// Leaves out of `contents` the vertices of `faults` (ascending, each once) and counts them; the
+// others keep their order. Throws InputError of the first one where `options` do not say so.
+void settle_faults(const std::string& path, const std::vector<VertexFault>& faults,
+                   const SceneReadOptions& options, SceneContents& contents);
 
 }  // namespace sgs

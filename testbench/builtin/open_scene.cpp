@@ -11,7 +11,7 @@
 
 namespace sgs {
 
-Scene open_scene(const std::string& spec, const PlyReadOptions& options) {
+Scene open_scene(const std::string& spec, const SceneReadOptions& options) {
   if (is_builtin_scene(spec)) {
     BuiltinScene made = make_builtin_scene(spec);
     const std::size_t begin = spec.find(':') + 1;
@@ -20,7 +20,8 @@ Scene open_scene(const std::string& spec, const PlyReadOptions& options) {
   }
   std::error_code unknown;
   if (!std::filesystem::exists(spec, unknown)) {
-    throw InputError(fmt::format("{}: no such file, expected a .ply file or builtin:NAME", spec));
+    throw InputError(fmt::format("{}: no such file, expected a scene ({}) or builtin:NAME", spec,
+                                 scene_endings()));
   }
   return load_scene(spec, options);
 }

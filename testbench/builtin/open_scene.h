@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "algorithm/scene/load_scene.h"
+#include "algorithm/scene_files/load_scene.h"
 
 namespace sgs {
 
 // Loads a file as load_scene does, or makes a scene "builtin:NAME?n=...", which brings its cameras.
 // Throws InputError as load_scene and make_builtin_scene do, and when `spec` is neither.
-Scene open_scene(const std::string& spec, const PlyReadOptions& options = {});
+Scene open_scene(const std::string& spec, const SceneReadOptions& options = {});
 
 }  // namespace sgs

@@ -9,8 +9,8 @@ Commands all_commands() {
           {"pack", add_pack_command},         {"train", add_train_command},
           {"tune", add_tune_command},         {"render", add_render_command},
           {"compare", add_compare_command},   {"photographs", add_photographs_command},
-          {"gpu", add_gpu_command},           {"info", add_info_command},
-          {"describe", add_describe_command}};
+          {"gpu", add_gpu_command},           {"convert", add_convert_command},
+          {"info", add_info_command},         {"describe", add_describe_command}};
 }
 
 }  // namespace sgs

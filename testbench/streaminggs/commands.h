@@ -28,6 +28,7 @@ SubCommand add_train_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_tune_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_photographs_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_gpu_command(CommandLine& line, const Kinds& kinds);
+SubCommand add_convert_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_info_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_describe_command(CommandLine& line, const Kinds& kinds);
 

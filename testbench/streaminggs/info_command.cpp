@@ -50,9 +50,11 @@ struct InfoArguments : SceneArguments {
 
 void print_dataset_in(const InfoArguments& arguments) {
   const std::string& folder = arguments.scene;
-  if (arguments.drop_invalid) {
+  for (const char* given : {arguments.drop_invalid ? "--drop-invalid" : nullptr,
+                            arguments.level ? "--level" : nullptr}) {
+    if (given == nullptr) continue;
     throw InputError(
-        fmt::format("--drop-invalid: {} is a folder of photographs, expected a scene", folder));
+        fmt::format("{}: {} is a folder of photographs, expected a scene", given, folder));
   }
   print_dataset(while_doing("reading " + folder,
                             [&] { return open_dataset(folder, arguments.data.options); }));
@@ -75,12 +77,14 @@ void print_cameras_in(const std::string& file) {
 SubCommand add_info_command(CommandLine& line, const Kinds& kinds) {
   auto arguments = std::make_shared<InfoArguments>();
   arguments->add_scene_to(line,
-                          "a .ply file, builtin:NAME?n=COUNT, a .sgs file made by pack, the folder "
-                          "of a data set, or a .json file of cameras");
+                          "a scene (.ply, .spz, .sog, .splat, .ksplat, .glb, a SOG folder), "
+                          "builtin:NAME?n=COUNT, a .sgs file made by pack, the folder of a data "
+                          "set, or a .json file of cameras");
   arguments->data.add_options_to(line);
   return [arguments, &kinds] {
     std::error_code unknown;
-    if (std::filesystem::is_directory(arguments->scene, unknown)) {
+    if (std::filesystem::is_directory(arguments->scene, unknown) &&
+        !is_scene_file(arguments->scene)) {
       print_dataset_in(*arguments);
       return 0;
     }
@@ -95,11 +99,13 @@ SubCommand add_info_command(CommandLine& line, const Kinds& kinds) {
                    readers_of(kinds, packed->storage.order));
       return 0;
     }
-    const Scene scene = arguments->load();
+    const Scene scene = arguments->load_silently();
     const SceneSummary s = summarise(scene.cloud);
     const auto print = [](const char* name, const std::string& value, const char* unit = "") {
       fmt::print("{:<26}{}{}\n", name, value, unit);
     };
+    if (!scene.form.empty()) print("form", scene.form);
+    for (const std::string& note : scene.notes) print("note", one_line(note));
     print("gaussians", grouped(s.count));
     print("dropped invalid", grouped(scene.dropped_invalid), " Gaussians");
     print("sh degree", std::to_string(s.sh_degree));

@@ -51,6 +51,7 @@ constexpr Help kHelp[] = {
      "photographs/garden --out views"},
     {"gpu", "model the original rasteriser on a mobile GPU",
      "scene.ply --cameras cameras.json --set watts=5"},
+    {"convert", "write a scene of any form as an INRIA .ply", "scene.spz scene.ply"},
     {"info", "print what a scene holds", "scene.ply"},
     {"describe", "print the data sheets and the configuration of a machine", "--config paper"},
 };

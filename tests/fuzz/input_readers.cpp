@@ -4,8 +4,11 @@
 #include "algorithm/image/image_formats.h"
 #include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_reader.h"
+#include "algorithm/scene_files/load_scene.h"
+#include "tests/algorithm/scene_files/made_scene_files.h"
 #include "tests/fuzz/few_views.h"
 #include "tests/fuzz/fuzzed_reader.h"
+#include "tests/fuzz/zero_runs.h"
 
 namespace sgs::test {
 namespace {
@@ -17,17 +20,56 @@ FuzzedReader dataset_reader(const std::string& name, WriteDataset write, const s
           [write](const std::string& folder) { write(folder, few_views()); }};
 }
 
+// Of a scene at `path` below the folder; the name says its form, where its bytes do not.
+FuzzedReader scene_reader(const std::string& name, const std::string& file,
+                          const std::string& path) {
+  return {name, file, [path](const std::string& folder) {
+            SceneReadOptions dropping;
+            dropping.drop_invalid = true;
+            load_scene(folder + "/" + path, dropping);
+          }};
+}
+FuzzedReader scene_reader(const std::string& name, const std::string& file) {
+  return scene_reader(name, file, file);
+}
+
+// Of one file of a SOG, the others of which stand in `below`.
+FuzzedReader sog_reader(const std::string& name, const std::string& file, const std::string& path,
+                        const std::string& below) {
+  FuzzedReader reader = scene_reader(name, file, path);
+  reader.prepare = [below](const std::string& folder) {
+    for (const Part& part : sog_parts(3, 1)) write_file(folder, below + part.name, part.bytes);
+  };
+  return reader;
+}
+
+// The headers of .ksplat are mostly zeros, in which a mutation finds nothing.
+FuzzedReader ksplat_reader() {
+  FuzzedReader reader = scene_reader("ksplat", "a.ksplat");
+  reader.file_of = [](const std::string& bytes) { return with_runs(bytes); };
+  return reader;
+}
+
 }  // namespace
 
 const std::vector<FuzzedReader>& fuzzed_readers() {
   static const std::vector<FuzzedReader> readers = {
       {"ply", "a.ply",
        [](const std::string& folder) {
-         PlyReadOptions dropping;
+         SceneReadOptions dropping;
          dropping.drop_invalid = true;
          read_ply(folder + "/a.ply", dropping);
          read_ply(folder + "/a.ply");
        }},
+      scene_reader("splat", "a.splat"),
+      scene_reader("compressed_ply", "a.ply"),
+      scene_reader("spz", "a.spz"),
+      scene_reader("sog", "a.sog"),
+      sog_reader("sog_meta", "meta.json", "meta.json", ""),
+      sog_reader("sog_picture", "sh0.webp", "meta.json", ""),
+      sog_reader("streamed_sog", "lod-meta.json", "lod-meta.json", "0_0/"),
+      ksplat_reader(),
+      scene_reader("gltf", "a.glb"),
       {"cameras", "a.json", [](const std::string& folder) { read_cameras(folder + "/a.json"); }},
       {"png", "a.png",
        [](const std::string& folder) {

@@ -11,6 +11,7 @@
 #include "algorithm/train/checkpoint.h"
 #include "tests/algorithm/image/jpeg_bytes.h"
 #include "tests/algorithm/image/photograph_bytes.h"
+#include "tests/algorithm/scene_files/made_scene_files.h"
 #include "tests/algorithm/storage/packed_scenes.h"
 #include "tests/fuzz/few_views.h"
 #include "tests/fuzz/zero_runs.h"
@@ -103,6 +104,48 @@ void make_scenes(const std::string& corpus) {
                    {"train", "--rate 1", "digest", "{}\n", 2.5, "state"});
 }
 
+// With codebooks of one digit a number: seeds are to be small.
+std::string short_sog_meta() {
+  std::string meta = sog_parts(3, 1).front().bytes;
+  const std::string key = "\"codebook\": [";
+  std::string digits;
+  for (int k = 0; k < 256; ++k) digits += (k == 0 ? "" : ",") + std::to_string(k % 10);
+  for (std::size_t at = meta.find(key); at != std::string::npos; at = meta.find(key, at)) {
+    at += key.size();
+    meta.replace(at, meta.find(']', at) - at, digits);
+  }
+  return meta;
+}
+
+void make_scene_files(const std::string& corpus) {
+  write_file(corpus, "splat/good_three.splat", splat_bytes(3));
+  write_file(corpus, "compressed_ply/good_degree_0.ply", compressed_ply_bytes(2, 0, false));
+  write_file(corpus, "compressed_ply/good_degree_1.ply", compressed_ply_bytes(2, 1, true));
+  for (const std::uint32_t version : {1U, 2U, 3U, 4U}) {
+    const std::string name = "spz/good_v" + std::to_string(version);
+    write_file(corpus, name + ".spz", spz_bytes(version, 3, 1));
+    if (version < 4) write_file(corpus, name + "_bare.spz", bare_spz_bytes(version, 3, 1));
+  }
+  std::vector<Part> parts = sog_parts(3, 1);
+  parts.front().bytes = short_sog_meta();
+  write_file(corpus, "sog/good_degree_1.sog", zip_bytes(parts));
+  write_file(corpus, "sog_meta/good_degree_1.json", short_sog_meta());
+  for (const Part& part : parts) {
+    if (part.name == "sh0.webp") write_file(corpus, "sog_picture/good_made.webp", part.bytes);
+  }
+  write_file(corpus, "streamed_sog/good_one_file.json",
+             R"({"version": 1, "lodLevels": 1, "counts": [3], "filenames": ["0_0/meta.json"],
+"tree": {"children": [{"lods": {"0": {"file": 0, "offset": 0, "count": 3}}}]}})");
+  for (const int compression : {0, 1, 2}) {
+    write_file(corpus, "ksplat/good_compression_" + std::to_string(compression) + ".ksplat",
+               without_runs(ksplat_bytes(compression, 5, 1)));
+  }
+  write_file(corpus, "gltf/good_degree_1.glb", glb_bytes(2, 1));
+  write_file(corpus, "gltf/good_node.glb",
+             glb_bytes(2, 0, R"(, "translation": [1, 2, 3], "rotation": [1, 0, 0, 0])"));
+  write_file(corpus, "gltf/good_spz.glb", spz_glb_bytes(spz_bytes(3, 3, 1)));
+}
+
 void make_seeds(const std::string& corpus) {
   std::string scratch = (fs::temp_directory_path() / "sgs-seeds-XXXXXX").string();
   if (::mkdtemp(scratch.data()) == nullptr) throw fs::filesystem_error(scratch, {});
@@ -110,6 +153,7 @@ void make_seeds(const std::string& corpus) {
   fs::remove_all(scratch);
   make_pictures(corpus);
   make_scenes(corpus);
+  make_scene_files(corpus);
 }
 
 }  // namespace

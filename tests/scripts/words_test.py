@@ -21,6 +21,7 @@ BUDGETS = {
     "algorithm/dataset/README.md": 900,
     "algorithm/memory/README.md": 1200,
     "algorithm/render/README.md": 1500,
+    "algorithm/scene_files/README.md": 500,
     "algorithm/splat/README.md": 1800,
     "algorithm/train/README.md": 1500,
     "algorithm/tune/README.md": 1200,

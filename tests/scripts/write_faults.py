@@ -98,6 +98,7 @@ WORKS = {
     "render, a picture is there": Work(
         (SG, "render", *SMALL, "--out", "a.png"), ((SG, "render", *SMALL, "--out", "a.png"),)
     ),
+    "convert": Work((SG, "convert", "builtin:object?n=600", "a.ply")),
     "pack": Work((SG, "pack", "builtin:object?n=600", "--out", "a.sgs")),
     "sweep": Work((SG, "sweep", *SMALL, "--axis", "dram.channels=4,8", "--out", "s.jsonl")
                   + ("--csv", "s.csv")),

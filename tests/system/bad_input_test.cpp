@@ -165,8 +165,18 @@ TEST_CASE("bad input: numbers, keys and values that mean nothing") {
             "mkdir -p d/images; mkfifo d/images/v.png; echo '[{\"id\": 0, \"img_name\": \"v\", "
             "\"width\": 32, \"height\": 18, \"position\": [0, 0, -5], \"rotation\": [[1, 0, 0], "
             "[0, 1, 0], [0, 0, 1]], \"fx\": 30, \"fy\": 30}]' >d/cameras.json"},
+           {"$SG convert $S a.txt", 2, {"a.txt, expected a name that ends in .ply"}},
+           {"$SG convert a.ply a.ply",
+            2,
+            {"a.ply: is the same file as the input a.ply"},
+            "touch a.ply"},
+           {"$SG info a.splat --level 1",
+            2,
+            {"a.splat: got level 1 of a splat file, which has no levels"},
+            "printf '%032d' 0 >a.splat"},
+           {"$SG info d --level 1", 2, {"--level: d is a folder of photographs"}, "mkdir d"},
            {"$SG pack $S --out a.txt", 2, {"--out: a.txt, expected", "ends in .sgs or .ply"}},
-           {"$SG pack nofile.ply --out a.sgs", 2, {"a .ply file or builtin:NAME?n=COUNT\n"}},
+           {"$SG pack nofile.ply --out a.sgs", 2, {"a SOG folder) or builtin:NAME?n=COUNT\n"}},
            {"$SG simulate a.ply --drop-invalid --cameras c --out o",
             2,
             {"a.ply: --drop-invalid leaves none of 2 Gaussians"},
@@ -193,7 +203,7 @@ TEST_CASE("bad input: numbers, keys and values that mean nothing") {
            {"$SG simulate $B --out o --config ''", 2, {"--config", "got nothing"}},
            {"$SG simulate d --cameras c --out o",
             2,
-            {"d: got a folder, expected a .ply"},
+            {"d: got a folder, expected a scene (.ply"},
             "mkdir d"},
            {"$SG simulate $S --out o --size 3", 2, {"--size: got '3', expected WIDTHxHEIGHT"}},
            {"$SG simulate $B --out o --seed 3", 2, {"--seed requires --stalls"}},
@@ -241,7 +251,7 @@ TEST_CASE("bad input: numbers, keys and values that mean nothing") {
             {"p:1: seed: unknown key, expected id, scene"},
             "echo '{\"seed\": 1}' >p"},
            {"$SG sweep $B --out r --points p", 2, {"p:1: byte", "not JSON"}, "echo '{\"set\"' >p"},
-           {"$SG sweep --out r --axis hfus=2", 2, {"SCENE: got none, expected a .ply"}},
+           {"$SG sweep --out r --axis hfus=2", 2, {"SCENE: got none, expected a scene (.ply"}},
            {"$SG sweep nofile.ply --out r --axis hfus=2", 2, {"nofile.ply: no such file"}},
            {"$SG sweep $B --out r --axis hfus=2 --view 9", 2, {"--view", "'9'"}},
            {"$SG sweep $S --out r --axis hfus=2 --size 3", 2, {"--size: got '3'"}},
@@ -286,7 +296,7 @@ TEST_CASE("bad input: messages are short, clean and begin with the program") {
          2,
          {"got no command",
           "simulate, what-if, sweep, diff, pack, train, tune, render, compare, photographs, gpu, "
-          "info, "
+          "convert, info, "
           "describe"}});
   check({"$SG simulat $S",
          2,

@@ -121,6 +121,15 @@ TEST_CASE("command line: options and their values") {
             "36, \\\"position\\\": [$1, 0, -5], \\\"rotation\\\": [[1, 0, 0], [0, 1, 0], [0, 0, "
             "1]], "
             "\\\"fx\\\": 30, \\\"fy\\\": 30}\"; }; echo \"[$(c 0 v), $(c 1 w)]\" >d/cameras.json"},
+           {"$SG convert a.splat b.ply && $SG info b.ply",
+            {"b.ply: 2 Gaussians of SH degree 0, ", "gaussians                 2\n"},
+            "for i in 1 2; do printf '========================RGBAwxyz' >>a.splat; done"},
+           {"$SG convert a.ply b.ply 2>&1 && $SG info a.ply",
+            {"streaminggs: note: a.ply: 1 element is skipped, since no picture needs it: extra\n",
+             "\nnote                      1 element is skipped, since no picture needs it: "
+             "extra\n"},
+            ply_of({"0 0 0"}) +
+                "; sed -i 's/float rot_3/&\\nelement extra 0\\nproperty float w/' a.ply"},
            {"$SG pack a.ply --config paper --out a.sgs",
             {"codebooks                 not weighted: no cameras\n", "file                      "},
             ply_of({"0 0 0"})},

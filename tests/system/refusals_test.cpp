@@ -167,10 +167,9 @@ TEST_CASE("refusals: scenes, cameras and sizes that are not there") {
                     {"--view: got '99', expected all"});
   check_not_started({"simulate", "builtin:object?n=100", "--view", "0,99"},
                     {"--view 0,99: got '99', expected all"});
-  check_not_started(
-      {"simulate", SGS_TECHNOLOGY},
-      {"got the extension \".json\", expected a .ply file, builtin:NAME?n=COUNT, or a "
-       ".sgs file made by pack"});
+  check_not_started({"simulate", SGS_TECHNOLOGY},
+                    {"got the extension \".json\", expected a scene (.ply, .spz, ",
+                     "builtin:NAME?n=COUNT, or a .sgs file made by pack"});
   check_not_started({"simulate", "builtin:object?n=100", "--size", "64"},
                     {"--size", "WIDTHxHEIGHT"});
   check_not_started({"simulate", "builtin:object?n=100", "--size", "0x64"}, {"--size"});

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "algorithm/render/paper_renderer.h"
-#include "algorithm/scene/load_scene.h"
+#include "algorithm/scene_files/load_scene.h"
 #include "algorithm/storage/stored_scene.h"
 #include "algorithm/train/scene_tuner.h"
 #include "algorithm/train/tuning_config.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/scene/load_scene.h"
+#include "algorithm/scene_files/load_scene.h"
 #include "algorithm/storage/image_file.h"
 #include "algorithm/storage/storage_scheme.h"
 #include "algorithm/storage/stored_scene.h"

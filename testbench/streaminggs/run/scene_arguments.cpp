@@ -20,6 +20,7 @@
 namespace sgs {
 namespace {
 
+constexpr std::uint32_t kMostLevel = 1000;
 constexpr int kMaxSizePx = 65536;  // sub-tile bounds are 16-bit numbers
 
 bool read_int(const std::string& text, int& value) {
@@ -85,14 +86,16 @@ std::vector<int> chosen_numbers(const std::string& view, int count) {
 void SceneArguments::add_scene_to(CommandLine& line, const char* forms) {
   scene_forms = forms;
   line.text("SCENE", scene, forms, Given::kAlways);
-  add_dropping_to(line);
+  add_reading_to(line);
 }
 
-void SceneArguments::add_dropping_to(CommandLine& line) {
+void SceneArguments::add_reading_to(CommandLine& line) {
   line.flag(
       "--drop-invalid", drop_invalid,
       "leave out Gaussians with values that are not finite or too large to be drawn, and count "
       "them");
+  line.whole("--level", level, 0, kMostLevel,
+             "of a scene with levels of detail, from 0, the finest, which is the default");
 }
 
 void SceneArguments::add_views_to(CommandLine& line) {
@@ -120,7 +123,7 @@ void SceneArguments::add_cache_to(CommandLine& line) {
 }
 
 std::string SceneArguments::default_out(const std::string& config_name) const {
-  std::string name = std::filesystem::path(scene).stem().string();
+  std::string name = scene_name(scene);
   if (is_builtin_scene(scene)) {
     name = scene.substr(scene.find(':') + 1);
     name = name.substr(0, name.find('?'));
@@ -129,7 +132,7 @@ std::string SceneArguments::default_out(const std::string& config_name) const {
 }
 
 void SceneArguments::add_inputs_to(OutputPlan& plan) const {
-  plan.add_input(scene);
+  for (const std::string& file : files_of_scene(scene)) plan.add_input(file);
   std::error_code unknown;
   if (!std::filesystem::is_directory(cameras_path, unknown)) return plan.add_input(cameras_path);
   for (const std::string& file : read_view_cameras(cameras_path).files) plan.add_input(file);
@@ -141,18 +144,27 @@ void SceneArguments::check_file() const {
   if (!std::filesystem::exists(scene, unknown)) {
     throw InputError(fmt::format("{}: no such file, expected {}", scene, scene_forms));
   }
+  if (is_scene_file(scene)) return;
   if (std::filesystem::is_directory(scene, unknown)) {
     throw InputError(fmt::format("{}: got a folder, expected {}", scene, scene_forms));
   }
-  if (!is_scene_file(scene)) {
-    throw InputError(fmt::format("{}: got the extension \"{}\", expected {}", scene,
-                                 std::filesystem::path(scene).extension().string(), scene_forms));
-  }
+  throw InputError(fmt::format("{}: got the extension \"{}\", expected {}", scene,
+                               std::filesystem::path(scene).extension().string(), scene_forms));
 }
 
 Scene SceneArguments::load() const {
+  Scene loaded = load_silently();
+  for (const std::string& note : loaded.notes) {
+    fmt::print(stderr, "streaminggs: note: {}\n", one_line(scene + ": " + note));
+  }
+  return loaded;
+}
+
+Scene SceneArguments::load_silently() const {
   check_file();
-  Scene loaded = while_doing("reading " + scene, [&] { return open_scene(scene, {drop_invalid}); });
+  Scene loaded = while_doing("reading " + scene, [&] {
+    return open_scene(scene, {drop_invalid, level});
+  });
   if (loaded.dropped_invalid > 0 && loaded.cloud.size() == 0) {
     throw InputError(
         fmt::format("{}: --drop-invalid leaves none of {} Gaussians, expected one or more", scene,
@@ -168,6 +180,7 @@ std::optional<PackedScene> SceneArguments::load_packed() const {
                                  argument, scene));
   };
   if (drop_invalid) refuse("--drop-invalid");
+  if (level) refuse("--level");
   if (!weigh_by.empty()) refuse("--weigh-by");
   return while_doing("reading " + scene, [&] { return read_image_file(scene); });
 }

@@ -10,16 +10,18 @@
 #include "algorithm/dataset/view_cameras.h"
 #include "algorithm/files/output_file.h"
 #include "algorithm/memory/second_half.h"
-#include "algorithm/scene/load_scene.h"
+#include "algorithm/scene_files/load_scene.h"
 #include "algorithm/splat/rects.h"
 #include "algorithm/storage/image_file.h"
 #include "testbench/command_line/command_line.h"
 
 namespace sgs {
 
+constexpr const char* kUnpackedSceneForms =
+    "a scene (.ply, .spz, .sog, .splat, .ksplat, .glb, a SOG folder) or builtin:NAME?n=COUNT";
 constexpr const char* kSceneForms =
-    "a .ply file, builtin:NAME?n=COUNT, or a .sgs file made by pack";
-constexpr const char* kUnpackedSceneForms = "a .ply file or builtin:NAME?n=COUNT";
+    "a scene (.ply, .spz, .sog, .splat, .ksplat, .glb, a SOG folder), builtin:NAME?n=COUNT, or a "
+    ".sgs file made by pack";
 
 // Cameras with their numbers, and lines for the terminal: what their size does to the shape of the
 // picture where that is another than theirs, and what their file says that frames do not show.
@@ -36,13 +38,14 @@ struct SceneArguments {
   std::string size;           // "WxH" or empty
   std::vector<int> weigh_by;  // numbers of cameras; empty: all
   bool drop_invalid = false;
-  std::string cache;  // cache of codebooks, as CodebookCache takes it
+  std::optional<std::uint32_t> level;  // of detail, see SceneReadOptions
+  std::string cache;                   // cache of codebooks, as CodebookCache takes it
 
   // forms: what SCENE may be.
   void add_scene_to(CommandLine& line, const char* forms = kSceneForms);
   void add_views_to(CommandLine& line);
   // Those arguments of the two above that hold for several scenes.
-  void add_dropping_to(CommandLine& line);
+  void add_reading_to(CommandLine& line);
   void add_choice_of_views_to(CommandLine& line);
 
   void add_weighing_to(CommandLine& line);
@@ -53,10 +56,13 @@ struct SceneArguments {
   // No output may take the place of the scene or the cameras.
   void add_inputs_to(OutputPlan& plan) const;
 
-  // Throws InputError when SCENE is neither a built-in one nor a .ply file that is there.
+  // Throws InputError when SCENE is neither a built-in one nor of a form that load_scene() knows.
   void check_file() const;
-  // Throws InputError, also when check_file() does, or when --drop-invalid leaves nothing.
+  // Throws InputError, also when check_file() does, or when --drop-invalid leaves nothing. What is
+  // to be noted of the file goes to stderr.
   Scene load() const;
+  // The same without a word.
+  Scene load_silently() const;
   // The scene where it is a file made by pack, else nothing. Throws InputError, also for arguments
   // that only a scene that is not packed yet can take.
   std::optional<PackedScene> load_packed() const;

@@ -33,7 +33,7 @@ void SweepArguments::add_to(CommandLine& line) {
              "their own; may be repeated");
   all.add_choice_of_views_to(line);
   all.add_weighing_to(line);
-  all.add_dropping_to(line);
+  all.add_reading_to(line);
   line.file("--technology", technology, "table of energy and area");
 }
 

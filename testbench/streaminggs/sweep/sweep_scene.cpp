@@ -29,7 +29,12 @@ SweepScene::SweepScene(SceneArguments arguments) : arguments_(std::move(argument
   }
   packed_ = arguments_.load_packed();
   if (!packed_) arguments_.check_file();
-  digest_ = xxh64_of_file(arguments_.scene);
+  const std::vector<std::string> files = files_of_scene(arguments_.scene);
+  digest_ =
+      files.size() == 1 ? xxh64_of_file(files.front()) : xxh64_of_text(digest_of_files(files));
+  if (arguments_.level) {
+    digest_ = xxh64_of_text(fmt::format("{:016x} level {}", digest_, *arguments_.level));
+  }
 }
 
 const ActivatedCloud& SweepScene::cloud() {

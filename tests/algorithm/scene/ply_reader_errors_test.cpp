@@ -19,7 +19,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // What reading these bytes says.
-std::string ply_refusal(const std::string& bytes, const PlyReadOptions& options = {}) {
+std::string ply_refusal(const std::string& bytes, const SceneReadOptions& options = {}) {
   const test::ScratchFolder scratch;
   const std::string path = scratch.write("bad.ply", bytes);
   const std::string message = test::input_error_of([&] { read_ply(path, options); });
@@ -92,7 +92,7 @@ TEST_CASE("ply reader refuses: a header without end") {
 TEST_CASE("ply reader refuses: missing properties, each by name") {
   const PlyTable good = counting_table(1);
   for (const char* name : {"x", "y", "z", "f_dc_0", "f_dc_1", "f_dc_2", "opacity", "scale_0",
-                           "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"}) {
+                           "scale_1", "rot_0", "rot_1", "rot_2", "rot_3"}) {
     PlyTable table = good;
     for (auto& column : table.columns) {
       if (column.name == name) column.name = "other";
@@ -213,9 +213,9 @@ TEST_CASE("ply reader refuses: values that are not finite, by vertex and propert
     for (const double value : {std::nan(""), kInfinity, -kInfinity}) {
       PlyTable table = counting_table(40);
       table.format = format;
-      table.rows[17][11] = value;  // scale_1
+      table.rows[17][13] = value;  // rot_0
       table.rows[23][0] = value;
-      CHECK_THAT(ply_refusal(table), Contains("vertex 17, property scale_1: got"));
+      CHECK_THAT(ply_refusal(table), Contains("vertex 17, property rot_0: got"));
       CHECK_THAT(ply_refusal(table), Contains("expected a finite number"));
     }
   }
@@ -260,7 +260,7 @@ TEST_CASE("ply reader: values too large to be drawn are refused, or dropped and 
         const std::string message = ply_refusal(table);
         CHECK_THAT(message, Contains("vertex 4, property " + std::string(c.property) + ": got "));
         CHECK_THAT(message, Contains(c.expected));
-        const PlyReadResult kept = read_ply(scratch.write("b.ply", test::bytes_of(table)), {true});
+        const SceneContents kept = read_ply(scratch.write("b.ply", test::bytes_of(table)), {true});
         CHECK(kept.dropped_invalid == 1);
         REQUIRE(kept.cloud.size() == 6);
         CHECK(kept.cloud.means[4].x == 5000);
@@ -306,7 +306,7 @@ TEST_CASE("ply reader: drop_invalid leaves out and counts what it would refuse")
     table.rows[3][1] = kInfinity;  // two faults, one vertex
     for (std::size_t i = 0; i < 4; ++i) table.rows[5][table.columns.size() - 1 - i] = 0;
     const std::string path = scratch.write("a.ply", test::bytes_of(table));
-    const PlyReadResult result = read_ply(path, {true});
+    const SceneContents result = read_ply(path, {true});
     CHECK(result.dropped_invalid == 3);
     REQUIRE(result.cloud.size() == 3);
     REQUIRE(result.cloud.sh_coeffs.size() == 27);
@@ -319,7 +319,7 @@ TEST_CASE("ply reader: drop_invalid leaves out and counts what it would refuse")
   }
   PlyTable table = counting_table(2);
   for (auto& row : table.rows) row[0] = kInfinity;
-  const PlyReadResult none = read_ply(scratch.write("b.ply", test::bytes_of(table)), {true});
+  const SceneContents none = read_ply(scratch.write("b.ply", test::bytes_of(table)), {true});
   CHECK(none.cloud.size() == 0);
   CHECK(none.dropped_invalid == 2);
 }

@@ -59,7 +59,7 @@ TEST_CASE("ply reader: every format and line end") {
       PlyTable table = counting_table(5, 0);
       table.format = format;
       table.line_end = line_end;
-      const PlyReadResult result = read_ply(scratch.write("a.ply", test::bytes_of(table)));
+      const SceneContents result = read_ply(scratch.write("a.ply", test::bytes_of(table)));
       check_counting_cloud(result.cloud, 5);
       CHECK(result.dropped_invalid == 0);
     }
@@ -115,7 +115,7 @@ TEST_CASE("ply reader: any order of properties, others among them, normals or no
     REQUIRE(table.columns[11].name == "z");
     for (auto& row : table.rows) row.erase(row.begin() + 11, row.begin() + 14);
     table.columns.insert(table.columns.begin() + 2, {"confidence", "double"});
-    table.columns.push_back({"filter_3D", "uchar"});
+    table.columns.push_back({"label", "uchar"});
     for (auto& row : table.rows) {
       row.insert(row.begin() + 2, -1.5);
       row.push_back(7);

@@ -4,8 +4,8 @@
 #include <glm/common.hpp>
 
 #include "algorithm/scene/describe.h"
-#include "algorithm/scene/load_scene.h"
 #include "algorithm/scene/ply_writer.h"
+#include "algorithm/scene_files/load_scene.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/shared_inputs.h"
 

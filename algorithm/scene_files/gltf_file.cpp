@@ -1,0 +1,232 @@
+// Nodes, primitives and attributes of gltf_file.h.
+#include "algorithm/scene_files/gltf_file.h"
+
+#include <fmt/format.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_json.h"
+#include "algorithm/scene_files/decoded_scene.h"
+#include "algorithm/scene_files/gltf_buffers.h"
+#include "algorithm/scene_files/joined_scenes.h"
+#include "algorithm/scene_files/placement.h"
+#include "algorithm/scene_files/spz_file.h"
+
+namespace sgs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kExtension = "KHR_gaussian_splatting";
+constexpr const char* kSpzExtension = "KHR_gaussian_splatting_compression_spz_2";
+
+glm::dmat4 local_matrix(const JsonFields& node) {
+  if (node.has("matrix")) {
+    const std::vector<double> values = node.numbers("matrix", 16);  // column by column
+    glm::dmat4 matrix(1);
+    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = values[i];
+    return matrix;
+  }
+  glm::dmat4 matrix(1);
+  if (node.has("translation")) {
+    const std::vector<double> t = node.numbers("translation", 3);
+    matrix = glm::translate(matrix, glm::dvec3(t[0], t[1], t[2]));
+  }
+  if (node.has("rotation")) {
+    const std::vector<double> q = node.numbers("rotation", 4);
+    matrix = matrix * glm::mat4_cast(glm::normalize(glm::dquat(q[3], q[0], q[1], q[2])));
+  }
+  if (node.has("scale")) {
+    const std::vector<double> s = node.numbers("scale", 3);
+    matrix = glm::scale(matrix, glm::dvec3(s[0], s[1], s[2]));
+  }
+  return matrix;
+}
+
+// What an INRIA .ply would hold for the Gaussian `index` of a cloud.
+void fill_slots(const GaussianCloud& cloud, std::uint64_t index, float* slots) {
+  const int coeffs = sh_coeff_count(cloud.sh_degree);
+  const glm::vec3* sh = &cloud.sh_coeffs[index * static_cast<std::uint64_t>(coeffs)];
+  for (int i = 0; i < 3; ++i) {
+    slots[kMeanSlot + i] = cloud.means[index][i];
+    slots[kDcSlot + i] = sh[0][i];
+    slots[kScaleSlot + i] = cloud.log_scales[index][i];
+    for (int k = 1; k < coeffs; ++k) slots[rest_slot(cloud.sh_degree, i, k - 1)] = sh[k][i];
+  }
+  std::copy_n(cloud.quats[index].begin(), 4, slots + kRotationSlot);
+  slots[kOpacitySlot] = cloud.opacity_logits[index];
+}
+
+// The attributes of a primitive that is not compressed.
+struct Attributes {
+  GltfAccessor position, rotation, scale, opacity;
+  std::vector<GltfAccessor> sh;  // one a coefficient
+  int degree = 0;
+
+  Attributes(const GltfBuffers& buffers, const JsonFields& fields) {
+    const auto accessor = [&](const std::string& name, int components) {
+      const GltfAccessor found = buffers.accessor(fields.whole(name), components);
+      if (name != "POSITION" && found.count != position.count) {
+        fields.refuse(name, fmt::format("an accessor of {} as POSITION", position.count));
+      }
+      return found;
+    };
+    const std::string prefix = std::string(kExtension) + ":";
+    position = accessor("POSITION", 3);
+    rotation = accessor(prefix + "ROTATION", 4);
+    scale = accessor(prefix + "SCALE", 3);
+    opacity = accessor(prefix + "OPACITY", 1);
+    const auto name_of = [&](int band, int number) {
+      return fmt::format("{}SH_DEGREE_{}_COEF_{}", prefix, band, number);
+    };
+    if (fields.has(name_of(4, 0))) fields.refuse(name_of(4, 0), "SH of degree 3 at most");
+    while (degree < 3 && fields.has(name_of(degree + 1, 0))) ++degree;
+    for (int band = 0; band <= degree; ++band) {
+      for (int k = 0; k < 2 * band + 1; ++k) sh.push_back(accessor(name_of(band, k), 3));
+    }
+  }
+
+  void fill(std::uint64_t index, float* slots) const {
+    for (int i = 0; i < 3; ++i) {
+      slots[kMeanSlot + i] = static_cast<float>(position.at(index, i));
+      slots[kScaleSlot + i] = static_cast<float>(std::log(scale.at(index, i)));
+      slots[kDcSlot + i] = static_cast<float>(sh[0].at(index, i));
+      for (std::size_t k = 1; k < sh.size(); ++k) {
+        slots[rest_slot(degree, i, static_cast<int>(k) - 1)] =
+            static_cast<float>(sh[k].at(index, i));
+      }
+    }
+    for (int k = 0; k < 4; ++k) {
+      slots[kRotationSlot + k] = static_cast<float>(rotation.at(index, (k + 3) % 4));
+    }
+    slots[kOpacitySlot] = static_cast<float>(logit(opacity.at(index, 0)));
+  }
+};
+
+void check_kind(const JsonFields& splats) {
+  const auto check = [&](const char* name, const char* expected) {
+    if (splats.has(name) && splats.text(name) != expected) {
+      splats.refuse(name, fmt::format("\"{}\"", expected));
+    }
+  };
+  check("kernel", "ellipse");
+  check("colorSpace", "srgb_rec709_display");
+  check("projection", "perspective");
+}
+
+class GltfReader {
+ public:
+  GltfReader(const std::string& path, const SceneReadOptions& options)
+      : path_(path), options_(options), buffers_(path), seen_(buffers_.count("nodes"), false) {}
+
+  SceneContents read() {
+    // glTF has its y axis upward: half a turn about z.
+    const glm::dmat4 axes(glm::dvec4(-1, 0, 0, 0), glm::dvec4(0, -1, 0, 0), glm::dvec4(0, 0, 1, 0),
+                          glm::dvec4(0, 0, 0, 1));
+    if (buffers_.count("scenes") == 0) {
+      throw InputError(fmt::format("{}: got no scene, expected one", path_));
+    }
+    const JsonFields scene = buffers_.item("scenes", buffers_.root().whole_or("scene", 0));
+    if (scene.has("nodes")) {
+      for (const Json& node : scene.list("nodes")) add_node(index_of(scene, node), axes);
+    }
+    if (primitives_ == 0) {
+      throw InputError(fmt::format("{}: got no primitive with {}, expected Gaussians{}", path_,
+                                   kExtension, others_ > 0 ? "; it holds meshes or points" : ""));
+    }
+    if (others_ > 0) {
+      contents_.notes.push_back(
+          fmt::format("{} primitives without {} are skipped", others_, kExtension));
+    }
+    return std::move(contents_);
+  }
+
+ private:
+  static std::uint64_t index_of(const JsonFields& owner, const Json& index) {
+    if (!index.is_number_unsigned()) owner.refuse("nodes", "numbers of nodes");
+    return index.get<std::uint64_t>();
+  }
+
+  void add_node(std::uint64_t index, const glm::dmat4& parent) {
+    const JsonFields node = buffers_.item("nodes", index);
+    if (seen_[index]) {
+      throw InputError(fmt::format("{}: got it twice in the tree, expected once", node.origin()));
+    }
+    seen_[index] = true;
+    const glm::dmat4 matrix = parent * local_matrix(node);
+    if (node.has("mesh")) add_mesh(node, matrix);
+    if (!node.has("children")) return;
+    for (const Json& child : node.list("children")) {
+      if (!child.is_number_unsigned()) node.refuse("children", "numbers of nodes");
+      add_node(child.get<std::uint64_t>(), matrix);
+    }
+  }
+
+  void add_mesh(const JsonFields& node, const glm::dmat4& matrix) {
+    const JsonFields mesh = buffers_.item("meshes", node.whole("mesh"));
+    std::uint64_t number = 0;
+    for (const Json& json : mesh.list("primitives")) {
+      const JsonFields primitive(fmt::format("{}: primitive {}", mesh.origin(), number++), json);
+      if (!primitive.has("extensions") || !primitive.object("extensions").has(kExtension)) {
+        ++others_;
+        continue;
+      }
+      ++primitives_;
+      const std::optional<Placement> placement = Placement::of(matrix);
+      if (!placement) {
+        throw InputError(
+            fmt::format("{}: got a transform that does more than turn, move and scale alike, "
+                        "expected it applied to the Gaussians",
+                        node.origin()));
+      }
+      append_scene(primitive.origin(), read_primitive(primitive, *placement), contents_);
+    }
+  }
+
+  SceneContents read_primitive(const JsonFields& primitive, const Placement& placement) const {
+    const JsonFields extensions = primitive.object("extensions");
+    const JsonFields splats = extensions.object(kExtension);
+    check_kind(splats);
+    const std::string& origin = primitive.origin();
+    if (!splats.has("extensions")) {
+      const Attributes attributes(buffers_, primitive.object("attributes"));
+      return decoded_scene(origin, attributes.position.count, attributes.degree, options_,
+                           [&](std::uint64_t index, float* slots) {
+                             attributes.fill(index, slots);
+                             placement.apply(attributes.degree, slots);
+                           });
+    }
+    const JsonFields compression = splats.object("extensions");
+    if (!compression.has(kSpzExtension)) {
+      splats.refuse("extensions", fmt::format("none, or {}", kSpzExtension));
+    }
+    const std::string_view spz =
+        buffers_.view(compression.object(kSpzExtension).whole("bufferView"));
+    const SceneContents raw = read_spz_bytes(origin, spz, options_);
+    SceneContents moved = decoded_scene(origin, raw.cloud.size(), raw.cloud.sh_degree, options_,
+                                        [&](std::uint64_t index, float* slots) {
+                                          fill_slots(raw.cloud, index, slots);
+                                          placement.apply(raw.cloud.sh_degree, slots);
+                                        });
+    moved.dropped_invalid += raw.dropped_invalid;
+    moved.notes = raw.notes;
+    return moved;
+  }
+
+  const std::string& path_;
+  const SceneReadOptions& options_;
+  const GltfBuffers buffers_;
+  std::vector<bool> seen_;  // of the nodes
+  SceneContents contents_;
+  int primitives_ = 0, others_ = 0;
+};
+
+}  // namespace
+
+SceneContents read_gltf(const std::string& path, const SceneReadOptions& options) {
+  return GltfReader(path, options).read();
+}
+
+}  // namespace sgs
