@@ -211,7 +211,7 @@ def report_page(described: Described) -> str:
         f"# Entries of report.json\n\n{WRITTEN_BY}"
         "Each view has a report under `view_N/`. `report.json` above them holds all views.\n"
         "Integers are counts. Ratios are derived once, from counts. A table of\n"
-        "[what is left out](README.md#what-is-left-out) belongs to `left_out`.\n\n"
+        "[what is left out](../cost/README.md#what-is-left-out) belongs to `left_out`.\n\n"
         "## A view\n\n"
         + table(head, [list(row) for row in of_view])
         + "## Names in capitals\n\n"
