@@ -280,9 +280,9 @@ class WithTheCommand(InFolder):
                 self.assertEqual(status, 0, said)
                 table = (self.folder / "out" / "explore.csv").read_text().splitlines()
                 begin, changed = csv.DictReader(table)
-                self.assertEqual(int(begin["cycles"]), view["frame"]["cycles"])
-                self.assertEqual(int(begin["dram.bus_bytes"]), view["dram"]["bus_bytes"])
-                self.assertEqual(float(begin["joules"]), view["energy"]["total_j"])
+                self.assertEqual(int(begin["sum(cycles)"]), view["frame"]["cycles"])
+                self.assertEqual(int(begin["sum(dram.bus_bytes)"]), view["dram"]["bus_bytes"])
+                self.assertEqual(float(begin["sum(joules)"]), view["energy"]["total_j"])
                 self.assertEqual(float(begin["mm2"]), view["area_mm2"]["total"])
                 for each in decided:
                     value = value_at(view["config"], each)

@@ -95,7 +95,9 @@ class Running(InFolder):
                     self.assertEqual(view["config"]["sram"][memory], needed)
                     available = memory.replace("_bytes", "_available_bytes")
                     self.assertEqual(view["sram"][available], needed)
-                (row,) = self.sweep([settings], config=config, fit_memories=True)
+                (row,) = self.sweep(
+                    [settings], config=config, fit_memories=True, more=["sram"]
+                )
                 self.assertEqual(row["sram." + memories[0]], view["sram"][memories[0]])
         with self.assertRaisesRegex(ValueError, "sram.shared_bytes=9: got it with --fit-memories"):
             self.run_one(settings={"sram.shared_bytes": 9}, fit_memories=True)

@@ -359,7 +359,7 @@ TEST_CASE("bad input: out of memory is said in one line, and over what") {
          "f_dc_2 opacity scale_0 scale_1 scale_2 rot_0 rot_1 rot_2 rot_3; do echo property float "
          "$p; done; echo end_header) >a.ply; truncate -s 1G a.ply"});
   check(
-      {"ulimit -v 500000; $SG info " + large + " >/dev/null", 1, {"out of memory while running"}});
+      {"ulimit -v 560000; $SG info " + large + " >/dev/null", 1, {"out of memory while running"}});
 }
 #endif
 

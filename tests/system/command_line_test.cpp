@@ -56,10 +56,11 @@ TEST_CASE("command line: options and their values") {
            {"$SG simulate $B --out o >t && [ $(wc -l <t) -le 15 ] && ! grep 'lanes (\\|^chosen' t "
             "&& "
             "cat t",
-            {"PSNR dB     SSIM = model        cycles     fps  DRAM MB       mJ\n", "\nview 0: ",
-             "\nview 0: energy ", "\n  DRAM region ", "\n  frame_buffer ", " mm2 at 32 nm\n"}},
+            {"PSNR dB     SSIM = model        cycles     fps  DRAM MB       mJ\n",
+             "\nview 0: ", "\nview 0: energy ", "\n  DRAM region ", "\n  frame_buffer ",
+             " mm2 at 32 nm; ", " with PHY and controller of the memory\n"}},
            {"$SG simulate $B --verbose --out o",
-            {" binding ", " mm2 at 32 nm: vsu ", " lanes (fp32_lane); ",
+            {" binding ", "\n  mm2 by kind: vsu ", " lanes (fp32_lane); ",
              "\nchosen: ", "\n  frame_buffer "}},
            {"$SG simulate $B --view 0,1 --out o >t && [ $(wc -l <t) -le 15 ] && cat t",
             {"\nview 1: ", " values chosen by the model: --verbose lists them\n"}},

@@ -292,7 +292,9 @@ TEST_CASE("configuration: what describe lists of report.json is what reports hol
   const Arguments scene = {"builtin:object?n=1500", "--size", "64x36"};
   const std::string packed = scratch.path("scene.sgs");
   REQUIRE(run_streaminggs({"pack", scene[0], "--config", "exact", "--out", packed}).status == 0);
-  write_cameras(scratch.path("cameras.json"), open_scene(scene[0]).cameras);
+  std::vector<Camera> cameras = open_scene(scene[0]).cameras;
+  for (Camera& camera : cameras) camera.principal_offset = {2, 1};
+  write_cameras(scratch.path("cameras.json"), cameras);
   std::set<std::string> paths;
   for (const Arguments& run :
        {joined(scene, {"--config", "paper", "--set", "storage.vq.iterations=1"}),

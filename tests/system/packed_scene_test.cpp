@@ -294,7 +294,8 @@ TEST_CASE("pack: what a packed scene cannot be used for is refused") {
   check_packed_refused(joined(joined(simulate, out), {"--weigh-by", "0"}), {"--weigh-by", file});
   check_packed_refused(joined(joined(simulate, out), {"--drop-invalid"}), {"--drop-invalid", file});
   check_packed_refused(joined({"simulate", file}, out), {file, "--cameras FILE is needed"});
-  check_packed_refused({"pack", file, "--out", scenes.path("b.sgs")}, {file, "expected a scene (.ply"});
+  check_packed_refused({"pack", file, "--out", scenes.path("b.sgs")},
+                       {file, "expected a scene (.ply"});
   check_packed_refused({"pack", scenes.ply(), "--out", scenes.path("b.bin")}, {"b.bin", ".sgs"});
   check_packed_refused({"pack", scenes.ply(), "--out", file + "/b.sgs"}, {file + "/b.sgs"});
   CHECK_FALSE(std::filesystem::exists(scenes.path("out")));

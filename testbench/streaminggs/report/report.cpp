@@ -310,9 +310,8 @@ void visit_costs(ReportVisitor& r, const CostResult& cost, const std::string& su
          [&](const auto& part) { r(key_of(part.first), unit, of_component, part.second.middle); });
   r(total, unit, of_total, cost.total.middle);
   r.object("bands", [&] {
-    r.each(cost.by_component, [&](const auto& part) {
-      visit_band(r, key_of(part.first), unit, part.second);
-    });
+    r.each(cost.by_component,
+           [&](const auto& part) { visit_band(r, key_of(part.first), unit, part.second); });
     visit_band(r, total, unit, cost.total);
   });
 }
