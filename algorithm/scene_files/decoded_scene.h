@@ -2,6 +2,7 @@
 // few bits.
 #pragma once
 
+#include <Imath/half.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -59,6 +60,11 @@ T load_number(const char* bytes) {
   return value;
 }
 inline std::uint8_t byte_at(const char* bytes) { return load_number<std::uint8_t>(bytes); }
+inline float half_at(const char* bytes) {
+  Imath::half value;
+  value.setBits(load_number<std::uint16_t>(bytes));
+  return value;
+}
 
 // f_dc of a colour in [0, 1]: what the SH basis of degree 0 makes the colour of.
 inline double dc_of_colour(double colour) { return (colour - 0.5) / 0.28209479177387814; }

@@ -1,7 +1,6 @@
 // Headers, buckets and records of ksplat_file.h.
 #include "algorithm/scene_files/ksplat_file.h"
 
-#include <Imath/half.h>
 #include <fmt/format.h>
 
 #include "algorithm/files/input_error.h"
@@ -182,10 +181,7 @@ class KsplatReader {
   }
 
   float stored(const char* at) const {
-    if (compression_ == 0) return load_number<float>(at);
-    Imath::half value;
-    value.setBits(load_number<std::uint16_t>(at));
-    return value;
+    return compression_ == 0 ? load_number<float>(at) : half_at(at);
   }
 
   double coefficient(const char* rest, int number) const {

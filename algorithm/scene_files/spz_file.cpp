@@ -1,7 +1,6 @@
 // SpzHeader, streams and numbers of spz_file.h.
 #include "algorithm/scene_files/spz_file.h"
 
-#include <Imath/half.h>
 #include <fmt/format.h>
 
 #include "algorithm/files/input_error.h"
@@ -132,12 +131,6 @@ float fixed_point(const char* bytes, double unit) {
   const int value =
       (raw & 0x800000U) != 0 ? static_cast<int>(raw) - (1 << 24) : static_cast<int>(raw);
   return static_cast<float>(value * unit);
-}
-
-float half_at(const char* bytes) {
-  Imath::half value;
-  value.setBits(load_number<std::uint16_t>(bytes));
-  return value;
 }
 
 // Three components of 8 bits each; the first one, w, follows.
