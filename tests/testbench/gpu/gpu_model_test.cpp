@@ -69,13 +69,15 @@ TEST_CASE("GPU model: what binds a stage is what its time follows") {
 }
 
 TEST_CASE("GPU model: a cache spares gathers, not what is touched once") {
-  GpuConfig none, all;
+  GpuConfig none, half, all;
   none.cache_mb = 0;
+  half.cache_mb = 24;  // of 500,000 Gaussians in three sectors
   all.cache_mb = 10'000;
   const auto gathered = [](const GpuConfig& config) {
     return model_gpu(some_work(), config).stages.back().intermediate_bytes;
   };
   CHECK(gathered(none) == Approx(2e6 * (4 + 96)));
+  CHECK(gathered(half) == Approx(2e6 * 4 + (5e5 + 1.5e6 / 2) * 96));
   CHECK(gathered(all) == Approx(2e6 * 4 + 5e5 * 96));
 }
 
