@@ -69,4 +69,8 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return nearest ? "; did you mean " + names[*nearest] + "?" : "";
 }
 
+std::string then_expected(const std::string& question) {
+  return question.empty() ? ", expected " : question + " Expected ";
+}
+
 }  // namespace sgs

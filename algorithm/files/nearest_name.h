@@ -17,7 +17,10 @@ std::optional<std::size_t> nearest_name(const std::string& word,
 std::optional<std::size_t> nearest_key(const std::string& key,
                                        const std::vector<std::string>& paths);
 
-// "; did you mean exact?", for the end of a refusal; empty where no name is near.
+// "; did you mean exact?", behind what was got; empty where no name is near.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& names);
+
+// The same, and the words that lead to what is allowed: a long list comes behind the question.
+std::string then_expected(const std::string& question);
 
 }  // namespace sgs

@@ -12,6 +12,7 @@
 #include <initializer_list>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -51,6 +52,11 @@ class ConfigVisitor {
   }
   void operator()(const char* key, double& value, ConfigRange range, const char* doc) {
     on_real(key, value, range, doc);
+  }
+  // A number that may be left open: null in JSON.
+  void operator()(const char* key, std::optional<double>& value, ConfigRange range,
+                  const char* doc) {
+    on_open_real(key, value, range, doc);
   }
   void operator()(const char* key, std::vector<double>& value, ConfigRange range, const char* doc) {
     on_reals(key, value, range, doc);
@@ -111,6 +117,8 @@ class ConfigVisitor {
   virtual void on_bool(const char* key, bool& value, const char* doc) = 0;
   virtual void on_string(const char* key, std::string& value, const char* doc) = 0;
   virtual void on_real(const char* key, double& value, ConfigRange range, const char* doc) = 0;
+  virtual void on_open_real(const char* key, std::optional<double>& value, ConfigRange range,
+                            const char* doc) = 0;
   virtual void on_reals(const char* key, std::vector<double>& value, ConfigRange range,
                         const char* doc) = 0;
   virtual void on_integer(const char* key, std::int64_t& value, ConfigRange range,

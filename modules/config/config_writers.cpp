@@ -12,6 +12,8 @@ namespace sgs {
 namespace {
 using Json = nlohmann::ordered_json;
 
+Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
 class JsonWriter : public ConfigWriter {
  public:
   std::string text() const override { return stack_.front().second.dump(2) + "\n"; }
@@ -21,6 +23,10 @@ class JsonWriter : public ConfigWriter {
   void on_string(const char* key, std::string& value, const char*) override { top()[key] = value; }
   void on_real(const char* key, double& value, ConfigRange, const char*) override {
     top()[key] = value;
+  }
+  void on_open_real(const char* key, std::optional<double>& value, ConfigRange,
+                    const char*) override {
+    top()[key] = json_of(value);
   }
   void on_reals(const char* key, std::vector<double>& value, ConfigRange, const char*) override {
     top()[key] = value;
@@ -60,6 +66,10 @@ class ExplainingWriter : public ConfigWriter {
   }
   void on_real(const char* key, double& value, ConfigRange range, const char* doc) override {
     line(key, value, interval(range), doc);
+  }
+  void on_open_real(const char* key, std::optional<double>& value, ConfigRange range,
+                    const char* doc) override {
+    line(key, json_of(value), interval(range) + ", null", doc);
   }
   void on_reals(const char* key, std::vector<double>& value, ConfigRange range,
                 const char* doc) override {

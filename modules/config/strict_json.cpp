@@ -84,7 +84,15 @@ class JsonReader : public ConfigVisitor {
   void on_real(const char* key, double& value, ConfigRange range, const char*) override {
     const Json* json = take(key);
     if (json == nullptr) return;
-    value = checked_real(key, *json, range);
+    value = checked_real(key, *json, range, "");
+  }
+
+  void on_open_real(const char* key, std::optional<double>& value, ConfigRange range,
+                    const char*) override {
+    const Json* json = take(key);
+    if (json == nullptr) return;
+    value.reset();
+    if (!json->is_null()) value = checked_real(key, *json, range, ", or null");
   }
 
   void on_reals(const char* key, std::vector<double>& value, ConfigRange range,
@@ -93,7 +101,7 @@ class JsonReader : public ConfigVisitor {
     if (json == nullptr) return;
     if (!json->is_array()) refuse(key, *json, "an array of numbers");
     value.clear();
-    for (const Json& element : *json) value.push_back(checked_real(key, element, range));
+    for (const Json& element : *json) value.push_back(checked_real(key, element, range, ""));
   }
 
   void on_integer(const char* key, std::int64_t& value, ConfigRange range, const char*) override {
@@ -121,9 +129,8 @@ class JsonReader : public ConfigVisitor {
           return;
         }
     const std::vector<std::string> names(allowed.begin(), allowed.end());
-    refuse(key, *json,
-           "one of " + join(allowed) +
-               (json->is_string() ? did_you_mean(json->get<std::string>(), names) : ""));
+    refuse(key, *json, "one of " + join(allowed),
+           json->is_string() ? did_you_mean(json->get<std::string>(), names) : "");
   }
 
   void begin_section(const char* key, const char*) override {
@@ -174,9 +181,11 @@ class JsonReader : public ConfigVisitor {
     return found == level.json->end() ? nullptr : &*found;
   }
 
-  double checked_real(const char* key, const Json& json, ConfigRange range) const {
-    const std::string allowed = fmt::format("a number in [{}, {}]", static_cast<double>(range.lo),
-                                            static_cast<double>(range.hi));
+  // otherwise: what else than such a number it may be, as ", or ...".
+  double checked_real(const char* key, const Json& json, ConfigRange range,
+                      const char* otherwise) const {
+    const std::string allowed = fmt::format("a number in [{}, {}]{}", static_cast<double>(range.lo),
+                                            static_cast<double>(range.hi), otherwise);
     if (!json.is_number()) refuse(key, json, allowed);
     const double value = json.get<double>();
     if (!(value >= range.lo && value <= range.hi)) refuse(key, json, allowed);
@@ -188,10 +197,12 @@ class JsonReader : public ConfigVisitor {
     return found == origins_.end() ? "configuration" : found->second;
   }
 
-  [[noreturn]] void refuse(const char* key, const Json& got, const std::string& allowed) const {
+  // question: of did_you_mean().
+  [[noreturn]] void refuse(const char* key, const Json& got, const std::string& allowed,
+                           const std::string& question = "") const {
     const std::string path = path_of(key);
-    throw InputError(
-        fmt::format("{}: {}: got {}, expected {}", origin_of(path), path, shown(got), allowed));
+    throw InputError(fmt::format("{}: {}: got {}{}{}", origin_of(path), path, shown(got),
+                                 then_expected(question), allowed));
   }
 
   void check_all_used(const Level& level) const {
@@ -199,9 +210,10 @@ class JsonReader : public ConfigVisitor {
       if (level.known.count(item.key()) > 0) continue;
       const std::string path = level.path.empty() ? item.key() : level.path + "." + item.key();
       const auto nearest = nearest_key(path, paths_);
-      throw InputError(fmt::format("{}: {}: unknown key, expected {}{}", origin_of(path), path,
-                                   level.known.empty() ? "none" : "one of " + join(level.known),
-                                   nearest ? "; did you mean " + paths_[*nearest] + "?" : ""));
+      throw InputError(
+          fmt::format("{}: {}: unknown key{}{}", origin_of(path), path,
+                      then_expected(nearest ? "; did you mean " + paths_[*nearest] + "?" : ""),
+                      level.known.empty() ? "none" : "one of " + join(level.known)));
     }
   }
 

@@ -10,7 +10,7 @@
 namespace sgs {
 
 double DramConfig::io_pj_per_bit_of(const Memspec& device) const {
-  return io_pj_per_bit < 0 ? device.io_pj_per_bit : io_pj_per_bit;
+  return io_pj_per_bit.value_or(device.io_pj_per_bit);
 }
 
 void DramConfig::validate() const {

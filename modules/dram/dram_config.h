@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "modules/config/config_visitor.h"
@@ -45,7 +46,7 @@ struct DramConfig {
   std::uint32_t self_refresh_idle_cycles = 0;
 
   std::string current_set;
-  double io_pj_per_bit = -1;  // negative: the memspec's
+  std::optional<double> io_pj_per_bit;  // none: the memspec's
 
   double io_pj_per_bit_of(const Memspec& device) const;
 
@@ -102,8 +103,8 @@ inline void visit(ConfigVisitor& v, DramConfig& c) {
   v("self_refresh_idle_cycles", c.self_refresh_idle_cycles, in_range(0, 100000000),
     "idle time of a rank before self-refresh; 0: never");
   v("current_set", c.current_set, "set of currents of the memspec; empty: its default");
-  v("io_pj_per_bit", c.io_pj_per_bit, in_range(-1.0, 100.0),
-    "I/O energy added to each transferred bit; negative: the memspec's");
+  v("io_pj_per_bit", c.io_pj_per_bit, in_range(0.0, 100.0),
+    "I/O energy added to each transferred bit; null: the memspec's");
 }
 
 }  // namespace sgs

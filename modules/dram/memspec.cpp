@@ -138,6 +138,7 @@ class KeyCollector : public ConfigVisitor {
   void on_bool(const char*, bool&, const char*) override {}
   void on_string(const char*, std::string&, const char*) override {}
   void on_real(const char*, double&, ConfigRange, const char*) override {}
+  void on_open_real(const char*, std::optional<double>&, ConfigRange, const char*) override {}
   void on_reals(const char*, std::vector<double>&, ConfigRange, const char*) override {}
   void on_integer(const char* key, std::int64_t& value, ConfigRange range, const char*) override {
     keys.push_back(key);

@@ -10,6 +10,7 @@
 #include "algorithm/render/tile_renderer.h"
 #include "modules/gscore/gscore_machine.h"
 #include "modules/gscore/list_memory.h"
+#include "modules/memory_too_small.h"
 
 namespace sgs::gscore {
 
@@ -35,11 +36,12 @@ void GscoreDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>
   const std::uint64_t needed = sram_bytes(uses, kBuffer);
   std::uint32_t& bytes = config_.sram.buffer_bytes;
   if (bytes != 0 && needed > bytes && (decides || !memory_fitted_)) {
-    throw InputError(fmt::format(
+    const std::string refusal = fmt::format(
         "sram.buffer_bytes: {} bytes are there{}, expected at least {}, or 0 for as many as that: "
         "{}",
-        bytes, memory_fitted_ ? " to decide the lists by" : "", needed,
-        largest_uses(uses, kBuffer)));
+        bytes, decides ? " to decide the lists by" : "", needed, largest_uses(uses, kBuffer));
+    if (decides) throw InputError(refusal);
+    throw MemoryTooSmall(refusal);
   }
   if (bytes == 0 || memory_fitted_) {
     bytes = static_cast<std::uint32_t>(needed);

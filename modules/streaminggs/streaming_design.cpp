@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "algorithm/files/input_error.h"
 #include "algorithm/render/group_shape.h"
 #include "algorithm/render/group_state.h"
 #include "modules/streaminggs/filter_cost.h"
@@ -26,8 +27,8 @@ void adapt(StreamingConfig& config, StorageOrder order, const SecondHalfFormat& 
     chosen.push_back(std::move(cost));
   }
   resolve_filter_depths(config, split, format.sh_degree, chosen);
-  check_sram("sram.codebook_bytes", config.sram.codebook_bytes,
-             CodebookBuffer::sram_uses(config.codebook, format), kCodebookSram, "");
+  check_sram<InputError>("sram.codebook_bytes", config.sram.codebook_bytes,
+                         CodebookBuffer::sram_uses(config.codebook, format), kCodebookSram, "");
 }
 
 StreamingJob streaming_job(const StreamingConfig& config, const FrameJob& job) {

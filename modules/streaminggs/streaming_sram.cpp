@@ -6,6 +6,7 @@
 #include "algorithm/files/input_error.h"
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/render/group_shape.h"
+#include "modules/memory_too_small.h"
 #include "modules/streaminggs/hfu/hfu.h"
 #include "modules/streaminggs/rendering/rendering_unit.h"
 
@@ -49,7 +50,7 @@ void size(const char* key, std::uint32_t& bytes, const SramUses& uses, const std
     chosen.push_back(
         {ChoiceKind::kDerived, key, static_cast<double>(bytes), sram_sum(uses, memory)});
   }
-  check_sram(key, bytes, uses, memory, ", or 0 for as many as that");
+  check_sram<MemoryTooSmall>(key, bytes, uses, memory, ", or 0 for as many as that");
 }
 
 }  // namespace
@@ -74,14 +75,6 @@ SramUses streaming_sram_uses(const StreamingConfig& c, const BuiltFor& built_for
     add(uses, outstanding_table(kSharedSram, built_for.memory_port));
   }
   return uses;
-}
-
-void check_sram(const char* key, std::uint64_t available, const SramUses& uses,
-                const std::string& memory, const char* otherwise) {
-  const std::uint64_t needed = sram_bytes(uses, memory);
-  if (needed <= available) return;
-  throw InputError(fmt::format("{}: {} bytes are there, expected at least {}{}: {}", key, available,
-                               needed, otherwise, largest_uses(uses, memory)));
 }
 
 void resolve_sram(StreamingConfig& config, const StorageConfig& storage, const SramPlan& plan,

@@ -1,6 +1,8 @@
 // On-chip memory that both orders use.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <functional>
 #include <string>
 #include <vector>
@@ -41,9 +43,15 @@ inline std::vector<PixelSize> frames_for(const StreamingConfig& config,
   return config.group_open() ? frames() : std::vector<PixelSize>{};
 }
 
-// Throws InputError, with the sum, when more is used of `memory` than there is; key: what says how
-// much there is; otherwise: what else than enough it may be, ", or ...", empty: nothing.
+// Throws Error, an InputError with the sum, when more is used of `memory` than there is; key: what
+// says how much there is; otherwise: what else than enough it may be, ", or ...", empty: nothing.
+template <class Error>
 void check_sram(const char* key, std::uint64_t available, const SramUses& uses,
-                const std::string& memory, const char* otherwise);
+                const std::string& memory, const char* otherwise) {
+  const std::uint64_t needed = sram_bytes(uses, memory);
+  if (needed <= available) return;
+  throw Error(fmt::format("{}: {} bytes are there, expected at least {}{}: {}", key, available,
+                          needed, otherwise, largest_uses(uses, memory)));
+}
 
 }  // namespace sgs

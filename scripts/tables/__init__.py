@@ -86,7 +86,8 @@ class Made:
     minutes: float | None = None
 
     def sentence(self) -> str:
-        return f"Made by `{self.command}`; commit {', '.join(self.commits) or 'unknown'}.\n\n"
+        commits = f"; commit {', '.join(self.commits)}" if self.commits else ""
+        return f"Made by `{self.command}`{commits}.\n\n"
 
 
 def measure_of(column: str) -> str:

@@ -55,9 +55,9 @@ Order order_of(const std::string& spec) {
   if (recipe == recipes().end()) {
     std::vector<std::string> names;
     for (const auto& [name, ignored] : recipes()) names.push_back("builtin:" + name);
-    throw InputError(fmt::format("{}: no such built-in scene, expected one of {}{}", spec,
-                                 join(names, " "),
-                                 did_you_mean(spec.substr(0, spec.find('?')), names)));
+    const std::string question = did_you_mean(spec.substr(0, spec.find('?')), names);
+    throw InputError(fmt::format("{}: no such built-in scene{}one of {}", spec,
+                                 then_expected(question), join(names, " ")));
   }
   const Recipe& chosen = recipe->second;
   return {chosen,

@@ -53,9 +53,9 @@ void check_command(const CLI::App& app, int argc, const char* const* argv) {
   const bool option = !word.empty() && word.front() == '-';
   if (names.empty() || option || std::find(names.begin(), names.end(), word) != names.end()) return;
   throw InputError(fmt::format(
-      "{}, expected one of {}{}",
+      "{}{}one of {}",
       argc > 1 ? fmt::format("'{}': no such command", word) : std::string("got no command"),
-      join(names), did_you_mean(word, names)));
+      then_expected(did_you_mean(word, names)), join(names)));
 }
 
 // What "--hfus 8" or "--hfus=8" may mean where no such option is: a key of --set, or an option that
@@ -192,6 +192,10 @@ void CommandLine::numbers(const char* name, std::vector<int>& values, const char
 
 void CommandLine::needs(const char* name, const char* other) {
   app_->app->get_option(name)->needs(app_->app->get_option(other));
+}
+
+void CommandLine::excludes(const char* name, const char* other) {
+  app_->app->get_option(name)->excludes(app_->app->get_option(other));
 }
 
 void CommandLine::set_keys(const std::function<std::vector<std::string>()>& keys) {

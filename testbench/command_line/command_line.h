@@ -55,6 +55,8 @@ class CommandLine {
 
   // One option of this command is refused without another.
   void needs(const char* name, const char* other);
+  // Or beside another.
+  void excludes(const char* name, const char* other);
 
   // keys: makes the keys that --set of this command takes. Whoever writes one as an option is told.
   void set_keys(const std::function<std::vector<std::string>()>& keys);

@@ -36,9 +36,9 @@ std::string config_file(const std::string& preset_or_path) {
   }
   std::error_code missing;
   if (fs::exists(preset_or_path, missing)) return preset_or_path;
-  throw InputError(
-      fmt::format("--config {}: no file of that name, and no preset, expected one of {}{}",
-                  preset_or_path, join(names), did_you_mean(preset_or_path, names)));
+  throw InputError(fmt::format("--config {}: no file of that name, and no preset{}one of {}",
+                               preset_or_path, then_expected(did_you_mean(preset_or_path, names)),
+                               join(names)));
 }
 
 }  // namespace sgs

@@ -2,6 +2,10 @@
 // they allow at most.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <string>
+
 #include "modules/config/config_visitor.h"
 
 namespace sgs {
@@ -18,6 +22,11 @@ constexpr Band operator*(const Band& a, const Band& b) {
 }
 constexpr Band operator*(double factor, const Band& a) {
   return {factor * a.low, factor * a.middle, factor * a.high};
+}
+
+// "6.50 (4.88 .. 9.50)"
+inline std::string in_words(const Band& band) {
+  return fmt::format("{:.2f} ({:.2f} .. {:.2f})", band.middle, band.low, band.high);
 }
 
 inline void visit(ConfigVisitor& v, Band& band) {

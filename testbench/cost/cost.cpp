@@ -91,7 +91,8 @@ CostResult area_of(const FrameResult& frame, const Technology& technology) {
 
 AreaTotals area_totals(const FrameResult& frame, const Technology& technology) {
   const Band machine = machine_area(frame.machine, technology).total;
-  return {machine, machine + memory_interface_area(frame, technology)};
+  const Band interface = memory_interface_area(frame, technology);
+  return {machine, machine + interface, interface};
 }
 
 CostResult area_by_owner(const FrameResult& frame, const Technology& technology) {

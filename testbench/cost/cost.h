@@ -21,9 +21,9 @@ struct CostResult {
 CostResult area_of(const FrameResult& frame, const Technology& technology);
 
 // The whole area in mm2, without and with PHY and controller of the memory's channels, whether the
-// table counts these or not.
+// table counts these or not; and these alone.
 struct AreaTotals {
-  Band without_memory_interface, with_memory_interface;
+  Band without_memory_interface, with_memory_interface, memory_interface;
 };
 AreaTotals area_totals(const FrameResult& frame, const Technology& technology);
 

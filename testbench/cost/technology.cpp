@@ -53,6 +53,7 @@ void visit(ConfigVisitor& v, DieCost& cost) {
 
 void visit(ConfigVisitor& v, MemoryInterfaceCost& cost) {
   v("counted", cost.counted, "whether it is part of area and energy");
+  v("memspec", cost.memspec, "memory that they are of: how the names of its memspecs begin");
   v.section("mm2", cost.mm2, "square millimetres of one channel");
   v.section("mw", cost.mw, "milliwatts of one channel, apart from what moves bits");
   v("write_queue_bytes", cost.write_queue_bytes, in_range(0, 1 << 30),

@@ -27,6 +27,7 @@ struct DieCost {
 // PHY and controller of one channel of the memory, on the accelerator's die.
 struct MemoryInterfaceCost {
   bool counted = false;
+  std::string memspec;  // whose they are: how the names of its memspecs begin; empty: not told
   Band mm2, mw;
   std::uint64_t write_queue_bytes = 0;  // writes that wait; on-chip memory, beside mm2 and mw
   std::string source;

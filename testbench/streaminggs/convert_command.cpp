@@ -1,4 +1,4 @@
-// streaminggs convert SCENE OUT.ply
+// streaminggs convert SCENE --out OUT.ply, or SCENE OUT.ply
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -16,24 +16,29 @@ namespace sgs {
 namespace {
 
 struct ConvertArguments : SceneArguments {
-  std::string out;
+  std::string out, second;  // by --out, or behind the scene
 };
 
 int run(const ConvertArguments& arguments) {
-  if (std::filesystem::path(arguments.out).extension() != ".ply") {
-    throw InputError(fmt::format("{}, expected a name that ends in .ply", arguments.out));
+  if (arguments.out.empty() == arguments.second.empty()) {
+    throw InputError(fmt::format("--out: got {}, expected one file to write",
+                                 arguments.out.empty() ? "none" : "it and " + arguments.second));
+  }
+  const std::string& out = arguments.out.empty() ? arguments.second : arguments.out;
+  if (std::filesystem::path(out).extension() != ".ply") {
+    throw InputError(fmt::format("{}, expected a name that ends in .ply", out));
   }
   OutputPlan plan;
   arguments.add_inputs_to(plan);
-  plan.add_output(arguments.out);
+  plan.add_output(out);
   plan.check();
   const Scene scene = arguments.load();
-  write_ply(arguments.out, scene.cloud);
+  write_ply(out, scene.cloud);
   if (scene.dropped_invalid > 0) {
     fmt::print("dropped invalid: {} Gaussians\n", grouped(scene.dropped_invalid));
   }
-  fmt::print("{}: {} Gaussians of SH degree {}, {} B\n", arguments.out, grouped(scene.cloud.size()),
-             scene.cloud.sh_degree, grouped(std::filesystem::file_size(arguments.out)));
+  fmt::print("{}: {} Gaussians of SH degree {}, {} B\n", out, grouped(scene.cloud.size()),
+             scene.cloud.sh_degree, grouped(std::filesystem::file_size(out)));
   return 0;
 }
 
@@ -42,8 +47,8 @@ int run(const ConvertArguments& arguments) {
 SubCommand add_convert_command(CommandLine& line, const Kinds& /*kinds*/) {
   auto arguments = std::make_shared<ConvertArguments>();
   arguments->add_scene_to(line, kUnpackedSceneForms);
-  line.text("OUT", arguments->out, "file to write: .ply as the original code writes it",
-            Given::kAlways);
+  line.file("--out", arguments->out, "file to write: .ply as the original code writes it");
+  line.file("OUT", arguments->second, "the same without --out");
   return [arguments] { return run(*arguments); };
 }
 

@@ -18,6 +18,7 @@
 #include "testbench/result/sram_budget.h"
 #include "testbench/result/wire.h"
 #include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/report/reported_run.h"
 #include "testbench/streaminggs/report/run_report.h"
 #include "testbench/streaminggs/run/prepared_scene.h"
 #include "tlm/memory_port.h"
@@ -25,19 +26,6 @@
 
 namespace sgs {
 namespace {
-
-// "hfu3.coarse" -> "hfuN.coarse": units that are there several times say the same of themselves.
-std::string numberless(std::string name) {
-  std::string out;
-  for (std::size_t at = 0; at < name.size(); ++at) {
-    if (std::isdigit(static_cast<unsigned char>(name[at])) == 0) {
-      out += name[at];
-    } else if (out.empty() || out.back() != 'N') {
-      out += 'N';
-    }
-  }
-  return out;
-}
 
 // Prints each row once.
 class Table {
@@ -60,15 +48,15 @@ void print_sheets(const MachineResult& machine) {
   Table activities("| unit | activity | resource | what it does |");
   for (const UnitResult& unit : machine.units) {
     for (const ActivityResult& a : unit.activities) {
-      activities.row(fmt::format("`{}` | `{}` | {} | {} ", numberless(unit.name), a.name,
+      activities.row(fmt::format("`{}` | `{}` | {} | {} ", without_numbers(unit.name), a.name,
                                  a.resource, a.meaning));
     }
   }
   Table counters("| unit | counter | unit of measure | meaning |");
   for (const UnitResult& unit : machine.units) {
     for (const CounterResult& c : unit.counters) {
-      counters.row(
-          fmt::format("`{}` | `{}` | {} | {} ", numberless(unit.name), c.name, c.unit, c.meaning));
+      counters.row(fmt::format("`{}` | `{}` | {} | {} ", without_numbers(unit.name), c.name, c.unit,
+                               c.meaning));
     }
   }
   Table parts("| component | part | how many | operations a cycle |");
@@ -146,6 +134,9 @@ SubCommand add_describe_command(CommandLine& line, const Kinds& kinds) {
   arguments->add_fitting_to(line);
   line.text("--memspec", arguments->memspec,
             "print a memspec with a comment for each key instead: a template for another");
+  for (const char* of_machine : {"--config", "--set", "--fit-memories"}) {
+    line.excludes("--memspec", of_machine);
+  }
   return [arguments, &kinds] {
     if (!arguments->memspec.empty()) {
       fmt::print("{}", config_to_commented_json(load_memspec(arguments->memspec)));

@@ -19,6 +19,7 @@
 #include "testbench/streaminggs/describe_packed.h"
 #include "testbench/streaminggs/fitting/dataset_arguments.h"
 #include "testbench/streaminggs/fitting/describe_dataset.h"
+#include "testbench/streaminggs/report/fact_line.h"
 #include "testbench/streaminggs/report/numbers.h"
 #include "testbench/streaminggs/run/run_config.h"
 #include "testbench/streaminggs/run/scene_arguments.h"
@@ -26,21 +27,16 @@
 namespace sgs {
 namespace {
 
-void print_extent(const char* name, const Extent& extent) {
-  fmt::print("{:<26}{:.4g} {:.4g} {:.4g} .. {:.4g} {:.4g} {:.4g} (world units)\n", name,
-             extent.min.x, extent.min.y, extent.min.z, extent.max.x, extent.max.y, extent.max.z);
-}
-
 void print_voxels(const ActivatedCloud& cloud) {
   const auto voxel_size = static_cast<float>(choose_voxel_size(cloud).value);
-  fmt::print("{:<26}{} world units\n", "voxel size", rounded(voxel_size));
+  print_fact("voxel size", rounded(voxel_size) + " world units");
   try {
     const VoxelGrid grid = arrange_by_voxels(cloud, voxel_size).table;
-    fmt::print("{:<26}{}\n{:<26}{}\n", "occupied voxels", grouped(grid.voxels.size()), "tree nodes",
-               grouped(grid.nodes.size()));
+    print_fact("occupied voxels", grouped(grid.voxels.size()));
+    print_fact("tree nodes", grouped(grid.nodes.size()));
   } catch (const InputError& error) {
     // Stored by chunks it can be drawn all the same.
-    fmt::print("{:<26}none: {}\n", "occupied voxels", error.what());
+    print_fact("occupied voxels", std::string("none: ") + error.what());
   }
 }
 
@@ -65,11 +61,11 @@ void print_cameras_in(const std::string& file) {
   const ViewCameras read = while_doing("reading " + file, [&] { return read_view_cameras(file); });
   std::map<std::pair<int, int>, std::size_t> sizes;
   for (const Camera& camera : read.cameras) ++sizes[{camera.width, camera.height}];
-  fmt::print("{:<26}{}\n", "cameras", grouped(read.cameras.size()));
+  print_fact("cameras", grouped(read.cameras.size()));
   for (const auto& [size, count] : sizes) {
-    fmt::print("{:<26}{}x{} px ({})\n", "size", size.first, size.second, grouped(count));
+    print_fact("size", fmt::format("{}x{} px ({})", size.first, size.second, grouped(count)));
   }
-  if (!read.note.empty()) fmt::print("{:<26}{}\n", "note", read.note);
+  if (!read.note.empty()) print_fact("note", read.note);
 }
 
 }  // namespace
@@ -93,32 +89,29 @@ SubCommand add_info_command(CommandLine& line, const Kinds& kinds) {
       return 0;
     }
     if (const auto packed = arguments->load_packed()) {
-      fmt::print("{:<26}{}\n{:<26}{:08x} (CRC-32)\n", "memory image, version", kImageFileVersion,
-                 "checksum", packed->checksum);
+      print_fact("memory image, version", std::to_string(kImageFileVersion));
+      print_fact("checksum", fmt::format("{:08x} (CRC-32)", packed->checksum));
       print_packed(packed->facts, packed->storage, packed->image.layout,
                    readers_of(kinds, packed->storage.order));
       return 0;
     }
     const Scene scene = arguments->load_silently();
     const SceneSummary s = summarise(scene.cloud);
-    const auto print = [](const char* name, const std::string& value, const char* unit = "") {
-      fmt::print("{:<26}{}{}\n", name, value, unit);
-    };
-    if (!scene.form.empty()) print("form", scene.form);
-    for (const std::string& note : scene.notes) print("note", one_line(note));
-    print("gaussians", grouped(s.count));
-    print("dropped invalid", grouped(scene.dropped_invalid), " Gaussians");
-    print("sh degree", std::to_string(s.sh_degree));
-    print_extent("extent, all", s.extent);
-    print_extent("extent, 0.1 .. 99.9 %", s.inner_extent);
-    print("never visible", grouped(s.invisible_count), " Gaussians (opacity < 1/255)");
-    print("median opacity", rounded(s.median_opacity));
-    print("median largest scale", rounded(s.median_scale), " world units");
-    print("largest scale", rounded(s.max_scale), " world units");
-    print("largest scale ratio", rounded(s.max_scale_ratio));
-    print("first halves, by voxels", grouped(s.first_half_bytes), " B, raw");
-    print("second halves, by voxels", grouped(s.second_half_bytes), " B, raw");
-    if (!scene.cameras.empty()) print("cameras", grouped(scene.cameras.size()));
+    if (!scene.form.empty()) print_fact("form", scene.form);
+    for (const std::string& note : scene.notes) print_fact("note", one_line(note));
+    print_fact("gaussians", grouped(s.count));
+    print_fact("dropped invalid", grouped(scene.dropped_invalid) + " Gaussians");
+    print_fact("sh degree", std::to_string(s.sh_degree));
+    print_fact("extent, all", in_words(s.extent));
+    print_fact("extent, 0.1 .. 99.9 %", in_words(s.inner_extent));
+    print_fact("never visible", grouped(s.invisible_count) + " Gaussians (opacity < 1/255)");
+    print_fact("median opacity", rounded(s.median_opacity));
+    print_fact("median largest scale", rounded(s.median_scale) + " world units");
+    print_fact("largest scale", rounded(s.max_scale) + " world units");
+    print_fact("largest scale ratio", rounded(s.max_scale_ratio));
+    print_fact("first halves, by voxels", grouped(s.first_half_bytes) + " B, raw");
+    print_fact("second halves, by voxels", grouped(s.second_half_bytes) + " B, raw");
+    if (!scene.cameras.empty()) print_fact("cameras", grouped(scene.cameras.size()));
     print_voxels(activate(scene.cloud));
     return 0;
   };

@@ -17,6 +17,7 @@
 #include "testbench/command_line/config_source.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/describe_packed.h"
+#include "testbench/streaminggs/report/fact_line.h"
 #include "testbench/streaminggs/report/numbers.h"
 #include "testbench/streaminggs/run/prepared_scene.h"
 #include "testbench/streaminggs/run/scene_arguments.h"
@@ -72,14 +73,14 @@ int run(const PackArguments& arguments, const Kinds& kinds) {
   print_packed(facts, prepared.stored.storage, image.layout,
                readers_of(kinds, prepared.stored.storage.order));
   if (image.layout.second_half.quantised()) {
-    fmt::print("{:<26}{}\n", "codebooks",
-               weighing.empty() ? std::string("not weighted: no cameras")
+    print_fact("codebooks", weighing.empty()
+                                ? std::string("not weighted: no cameras")
                                 : fmt::format("weighted by {} cameras", grouped(weighing.size())));
   }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
-  fmt::print("{:<26}{} B, {}\n", "file", grouped(std::filesystem::file_size(arguments.out)),
-             arguments.out);
-  fmt::print("{:<26}{:.1f} s\n", "packed in", took.count());
+  print_fact("file", fmt::format("{} B, {}", grouped(std::filesystem::file_size(arguments.out)),
+                                 arguments.out));
+  print_fact("packed in", fmt::format("{:.1f} s", took.count()));
   return 0;
 }
 

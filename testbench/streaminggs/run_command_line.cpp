@@ -25,7 +25,8 @@ struct Help {
   const char* done = "0 done";
 };
 
-constexpr const char* kFrameFailed = "1 a simulation failed, or a frame is not its model's";
+constexpr const char* kFrameFailed =
+    "1 a simulation failed, or a frame differs from the streaming renderer's";
 
 constexpr Help kHelp[] = {
     {"simulate", "send a scene through the accelerator",
@@ -51,7 +52,7 @@ constexpr Help kHelp[] = {
      "photographs/garden --out views"},
     {"gpu", "model the original rasteriser on a mobile GPU",
      "scene.ply --cameras cameras.json --set watts=5"},
-    {"convert", "write a scene of any form as an INRIA .ply", "scene.spz scene.ply"},
+    {"convert", "write a scene of any form as an INRIA .ply", "scene.spz --out scene.ply"},
     {"info", "print what a scene holds", "scene.ply"},
     {"describe", "print the data sheets and the configuration of a machine", "--config paper"},
 };

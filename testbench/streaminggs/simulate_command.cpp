@@ -130,7 +130,8 @@ PathJob path_job(const SimulateArguments& arguments, std::vector<Camera>& keys) 
   return {path.name, frames_along(path, arguments.frames), arguments.frame_rate};
 }
 
-// Prints the machine, the precision if it has one for blending, and how the scene is stored.
+// Prints the machine, the precision if it has one for blending, how the scene is stored, and which
+// sizes of memories give way.
 void print_what_runs(RunSetting& setting) {
   const Json config = parse_json(to_json(setting.config), "the configuration");
   const std::string precision =
@@ -139,6 +140,7 @@ void print_what_runs(RunSetting& setting) {
              config.at("machine").get<std::string>(),
              precision.empty() ? "" : fmt::format("blends in {}, ", precision),
              config.at("storage").at("encoding").get<std::string>());
+  if (!setting.config.sizes_replaced.empty()) fmt::print("{}\n", setting.config.sizes_replaced);
 }
 
 // Prints where tables of the memory's numbers disagree: those of shipped memspecs are known.

@@ -46,6 +46,8 @@ class Writing(InFolder):
             "| scene | view | cycles | PSNR dB |\n| --- | ---: | ---: | --- |\n"
             "| a\\|b | 0 | 12,345 | 31.2 |\n| c | 1 | 6 | equal |\n| d | 2 |  |  |\n",
         )
+        unnamed = Made("x", ())
+        self.assertTrue(self.written(by=unnamed).startswith("Made by `x`.\n\n"))
         csv = (self.folder / "one.csv").read_text()
         self.assertEqual(
             csv, "scene,view,cycles,PSNR dB\na|b,0,12345,31.25\nc,1,6,inf\nd,2,,\n"

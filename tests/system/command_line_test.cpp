@@ -56,9 +56,10 @@ TEST_CASE("command line: options and their values") {
            {"$SG simulate $B --out o >t && [ $(wc -l <t) -le 15 ] && ! grep 'lanes (\\|^chosen' t "
             "&& "
             "cat t",
-            {"PSNR dB     SSIM = model        cycles     fps  DRAM MB       mJ\n",
+            {"view        px  PSNR dB     SSIM = streaming renderer        cycles     fps  DRAM MB "
+             "      mJ\n",
              "\nview 0: ", "\nview 0: energy ", "\n  DRAM region ", "\n  frame_buffer ",
-             " mm2 at 32 nm; ", " with PHY and controller of the memory\n"}},
+             " mm2 at 32 nm; ", " with PHY and controller of lpddr3_1600\n"}},
            {"$SG simulate $B --verbose --out o",
             {" binding ", "\n  mm2 by kind: vsu ", " lanes (fp32_lane); ",
              "\nchosen: ", "\n  frame_buffer "}},
@@ -122,7 +123,8 @@ TEST_CASE("command line: options and their values") {
             "36, \\\"position\\\": [$1, 0, -5], \\\"rotation\\\": [[1, 0, 0], [0, 1, 0], [0, 0, "
             "1]], "
             "\\\"fx\\\": 30, \\\"fy\\\": 30}\"; }; echo \"[$(c 0 v), $(c 1 w)]\" >d/cameras.json"},
-           {"$SG convert a.splat b.ply && $SG info b.ply",
+           {"$SG convert a.splat b.ply && $SG convert a.splat --out c.ply && cmp b.ply c.ply && "
+            "$SG info b.ply",
             {"b.ply: 2 Gaussians of SH degree 0, ", "gaussians                 2\n"},
             "for i in 1 2; do printf '========================RGBAwxyz' >>a.splat; done"},
            {"$SG convert a.ply b.ply 2>&1 && $SG info a.ply",

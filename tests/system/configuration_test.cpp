@@ -104,6 +104,15 @@ TEST_CASE(
   const Arguments more = with_settings(scene, {"hfus=8"});
   CHECK(Simulation(more).views()[0]["config"]["hfus"] == 8);
   CHECK(run_streaminggs({"simulate", "builtin:object?n=500", "--set", "hfus=8"}).status == 2);
+  const ScratchFolder scratch;
+  const std::string mine =
+      scratch.write("mine.json", R"({"machine": "exact", "sram": {"shared_bytes": 400000}})");
+  for (const char* command : {"simulate", "what-if"}) {
+    const Arguments words =
+        joined({command}, joined(scene, {"--config", mine, "--out", scratch.path(command)}));
+    CHECK_THAT(run_streaminggs(words).out,
+               Contains("memories are fitted, not as given: sram.shared_bytes 400000 (" + mine));
+  }
   struct Refusal {
     const char *preset, *set, *says;
   };
@@ -156,7 +165,39 @@ TEST_CASE("configuration: simulate notes what tb_dram notes of the memory, and c
   CHECK(done.err.find("note: lpddr3_1600_4gb: refi is 3120 but refi_bank x banks is 3112\n") !=
         std::string::npos);
   const Json report = Json::parse(std::ifstream(scratch.path("report.json")));
-  CHECK(report["config"]["dram"]["io_pj_per_bit"] == 7);
+  const Json& interface = report["views"][0]["memory_interface"];
+  CHECK(report["config"]["dram"]["io_pj_per_bit"].is_null());
+  CHECK(interface["io_pj_per_bit"] == 7);
+  CHECK(interface["area_known"] == true);
+}
+
+TEST_CASE("configuration: the memory's interface is of a memory that is named") {
+  struct Row {
+    Arguments settings;
+    double pj;
+    const char *source, *says;
+  };
+  for (const auto& [settings, pj, source, says] :
+       {Row{{"dram.memspec=lpddr4_3200_8gb"},
+            3,
+            "LPDDR3's value",
+            "\nlpddr4_3200_8gb: PHY and controller are not known, lpddr3_1600's are counted; I/O 3 "
+            "pJ/bit: own choice (low confidence): LPDDR3's value"},
+        Row{{"dram.io_pj_per_bit=0.5"}, 0.5, "dram.io_pj_per_bit", ""}}) {
+    INFO(settings[0]);
+    const ScratchFolder scratch;
+    const Outcome done = run_streaminggs(with_settings(
+        {"simulate", "builtin:object?n=50", "--size", "32x18", "--out", scratch.path("")},
+        settings));
+    REQUIRE(done.status == 0);
+    CHECK_THAT(done.out, Contains("with PHY and controller of lpddr3_1600\n") && Contains(says));
+    const Json report = Json::parse(std::ifstream(scratch.path("report.json")));
+    const Json& interface = report["views"][0]["memory_interface"];
+    CHECK(interface["area_of"] == "lpddr3_1600");
+    CHECK(interface["area_known"] == (*says == '\0'));
+    CHECK(interface["io_pj_per_bit"] == pj);
+    CHECK_THAT(interface["io_source"].get<std::string>(), Contains(source));
+  }
 }
 
 TEST_CASE("configuration: a machine's name alone is the preset of its name, or as little away") {

@@ -37,7 +37,7 @@ std::vector<StatedKey> read_keys(const std::string& preset) {
   const Outcome outcome = run_streaminggs({"describe", "--config", preset});
   REQUIRE(outcome.status == 0);
   const std::regex line_of_key(R"(^([a-z0-9_.]+) = (\S*)  \(([^)]*)\)  .*)");
-  const std::regex range(R"(^(-?[0-9.e+]+)\.\.([0-9.e+]+)$)");
+  const std::regex range(R"(^(-?[0-9.e+]+)\.\.([0-9.e+]+)(?:, null)?$)");
   std::vector<StatedKey> keys;
   std::istringstream in(outcome.out);
   for (std::string line; std::getline(in, line);) {
@@ -60,7 +60,7 @@ std::vector<StatedKey> read_keys(const std::string& preset) {
 std::string draw(std::mt19937_64& random, const StatedKey& key) {
   const auto pick = [&](std::size_t choices) { return random() % choices; };
   if (!key.choices.empty()) return key.choices[pick(key.choices.size())];
-  const double now = std::stod(key.value);
+  const double now = key.value == "null" ? key.low : std::stod(key.value);
   const double usual = std::max(1.0, now);
   double value = 0;
   switch (pick(8)) {

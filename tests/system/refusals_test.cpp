@@ -43,7 +43,8 @@ TEST_CASE("refusals: an SRAM budget that is broken, with the sum") {
                     {"sram.input_bytes: 16384 bytes are there", "2 slots x 1024 Gaussians"});
   check_set_refused("exact", {"hfus=8"},
                     {"streaminggs: preset exact with --set hfus=8: sram.input_bytes: 3840 bytes "
-                     "are there, expected at least 7680, or 0 for as many as that: "});
+                     "are there, expected at least 7680, or 0 for as many as that: ",
+                     "; --fit-memories sizes it\n"});
   check_set_refused("exact", {"sram.input_bytes=100", "hfus=8"},
                     {"streaminggs: --set sram.input_bytes=100: sram.input_bytes: 100 bytes"});
   check_set_refused("paper", {"storage.vq.iterations=0", "sram.codebook_bytes=9"},

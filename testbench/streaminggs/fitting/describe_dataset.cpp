@@ -9,17 +9,11 @@
 #include <string>
 #include <utility>
 
+#include "testbench/streaminggs/report/fact_line.h"
 #include "testbench/streaminggs/report/numbers.h"
 
 namespace sgs {
 namespace {
-
-void print(const char* name, const std::string& value) { fmt::print("{:<26}{}\n", name, value); }
-
-std::string corners_of(const Extent& extent) {
-  return fmt::format("{:.4g} {:.4g} {:.4g} .. {:.4g} {:.4g} {:.4g} (world units)", extent.min.x,
-                     extent.min.y, extent.min.z, extent.max.x, extent.max.y, extent.max.z);
-}
 
 // "635x356 px", or each size with how many views have it.
 std::string sizes(const Dataset& dataset) {
@@ -50,33 +44,35 @@ Extent box_of_cameras(const Dataset& dataset) {
 }  // namespace
 
 void print_dataset(const Dataset& dataset) {
-  print("data set", dataset.layout);
-  print("views", std::to_string(dataset.views.size()));
-  print("to train from", std::to_string(views_of(dataset, Split::kTrain).size()));
-  print("to test with",
-        fmt::format("{} ({})", views_of(dataset, Split::kTest).size(),
-                    dataset.split_by == SplitBy::kDataset ? "the data set's own split"
-                                                          : "every 8th by name"));
+  print_fact("data set", dataset.layout);
+  print_fact("views", std::to_string(dataset.views.size()));
+  print_fact("to train from", std::to_string(views_of(dataset, Split::kTrain).size()));
+  print_fact("to test with",
+             fmt::format("{} ({})", views_of(dataset, Split::kTest).size(),
+                         dataset.split_by == SplitBy::kDataset ? "the data set's own split"
+                                                               : "every 8th by name"));
   if (dataset.left_out > 0) {
-    print("left out", fmt::format("{} (for validation)", dataset.left_out));
+    print_fact("left out", fmt::format("{} (for validation)", dataset.left_out));
   }
-  print("size", sizes(dataset));
+  print_fact("size", sizes(dataset));
   if (const int cropped = count_if(dataset, [](const DatasetView& view) {
         return is_pinhole(view.taken.lens) &&
                (view.used_px.x != view.file.width || view.used_px.y != view.file.height);
       })) {
-    print("cropped", fmt::format("{} views, to have the principal point in the middle", cropped));
+    print_fact("cropped",
+               fmt::format("{} views, to have the principal point in the middle", cropped));
   }
-  print("with alpha", std::to_string(count_if(
-                          dataset, [](const DatasetView& view) { return view.file.has_alpha; })));
-  print("points", grouped(dataset.points.size()));
-  print("cameras stand in", corners_of(box_of_cameras(dataset)));
-  if (dataset.bounds) print("bounds", corners_of(*dataset.bounds));
+  print_fact("with alpha", std::to_string(count_if(dataset, [](const DatasetView& view) {
+               return view.file.has_alpha;
+             })));
+  print_fact("points", grouped(dataset.points.size()));
+  print_fact("cameras stand in", in_words(box_of_cameras(dataset)));
+  if (dataset.bounds) print_fact("bounds", in_words(*dataset.bounds));
   print_notes(dataset);
 }
 
 void print_notes(const Dataset& dataset) {
-  for (const auto& [title, text] : dataset.notes) print(title.c_str(), text);
+  for (const auto& [title, text] : dataset.notes) print_fact(title, text);
 }
 
 }  // namespace sgs

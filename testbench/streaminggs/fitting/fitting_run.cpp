@@ -11,6 +11,7 @@
 #include "algorithm/files/output_file.h"
 #include "testbench/command_line/guard.h"
 #include "testbench/command_line/interrupt.h"
+#include "testbench/streaminggs/report/fact_line.h"
 #include "testbench/streaminggs/report/provenance.h"
 
 namespace sgs {
@@ -161,8 +162,8 @@ int run_fitting(const FittingArguments& arguments, const FittingTask& task,
                                  task.fitting.steps()));
   }
   if (from && from->pace != task.pace) {
-    fmt::print("{:<26}behind step {} with {}, until there with {}\n", "resumed", done, task.pace,
-               from->pace);
+    print_fact("resumed", fmt::format("behind step {} with {}, until there with {}", done,
+                                      task.pace, from->pace));
   }
   return FittingRun(arguments, task, from).run(look_first);
 }

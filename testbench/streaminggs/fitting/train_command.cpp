@@ -14,6 +14,7 @@
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/fitting/dataset_arguments.h"
 #include "testbench/streaminggs/fitting/fitting_run.h"
+#include "testbench/streaminggs/report/fact_line.h"
 #include "testbench/streaminggs/report/numbers.h"
 
 namespace sgs {
@@ -66,9 +67,9 @@ std::vector<Camera> training_cameras(const Dataset& dataset) {
 GaussianCloud start_of(const Dataset& dataset, const TrainingConfig& config) {
   const auto points = points_to_start_at(dataset, config.start_gaussians, config.seed);
   GaussianCloud cloud = start_at_points(points, config.start_gaussians, config.start, config.seed);
-  fmt::print("{:<26}{} of {} {}\n", "start", grouped(cloud.size()), grouped(points.size()),
-             dataset.points.empty() ? "random points, the data set brings none"
-                                    : "points of the data set");
+  print_fact("start", fmt::format("{} of {} {}", grouped(cloud.size()), grouped(points.size()),
+                                  dataset.points.empty() ? "random points, the data set brings none"
+                                                         : "points of the data set"));
   return cloud;
 }
 

@@ -8,6 +8,7 @@
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/storage/storage_scheme.h"
+#include "testbench/streaminggs/report/fact_line.h"
 #include "testbench/streaminggs/report/numbers.h"
 
 namespace sgs {
@@ -61,14 +62,15 @@ SceneTuner begun_tuner(const TuneArguments& arguments, const TuningJob& job,
 
 void print_target(const TuningJob& job, std::size_t gaussians) {
   const StorageConfig& storage = job.config.storage;
-  fmt::print("{:<26}{}\n{:<26}{} in {}, {} left out that no view can show\n", "target",
-             job.views.says, "Gaussians", grouped(gaussians),
-             scheme_of(storage.order).in_words(storage),
-             grouped(job.scene.cloud.size() - gaussians));
+  print_fact("target", job.views.says);
+  print_fact("Gaussians",
+             fmt::format("{} in {}, {} left out that no view can show", grouped(gaussians),
+                         scheme_of(storage.order).in_words(storage),
+                         grouped(job.scene.cloud.size() - gaussians)));
 }
 
 void print_visits(const VisitPlan& plan) {
-  fmt::print("{:<26}{:.1f} MB kept\n", "visits", static_cast<double>(plan.kept_bytes()) / 1e6);
+  print_fact("visits", fmt::format("{:.1f} MB kept", static_cast<double>(plan.kept_bytes()) / 1e6));
 }
 
 }  // namespace sgs

@@ -15,6 +15,7 @@
 #include "algorithm/train/quantised_tuner.h"
 #include "algorithm/vq/image_weights.h"
 #include "testbench/streaminggs/fitting/tune_command.h"
+#include "testbench/streaminggs/report/fact_line.h"
 #include "testbench/streaminggs/run/progress.h"
 
 namespace sgs {
@@ -114,8 +115,8 @@ int tune_for_codebooks(const TuneArguments& arguments, const TuningJob& job) {
       begun(arguments, job, config, plan ? paper_order(*plan) : reference_order(), activated, from);
   print_target(job, activated.size());
   const Judge judge(job, order);
-  fmt::print("{:<26}PSNR {:.2f} dB, before codebooks\n", "as given",
-             judge.of(activated, given.table).shown.psnr_db);
+  print_fact("as given", fmt::format("PSNR {:.2f} dB, before codebooks",
+                                     judge.of(activated, given.table).shown.psnr_db));
   arguments.pictures.write_photographs(job.views.test, order ? order->background : glm::vec3(0));
   const auto look = [&] {
     const StoredScene stored = tuner.stored(storage);

@@ -194,6 +194,15 @@ Binding find_binding(const FrameResult& frame) {
   return binding;
 }
 
+Binding find_binding(const FrameResult& frame, const AreaTotals& area) {
+  Binding binding = find_binding(frame);
+  if (binding.remedy.known() && binding.remedy.key == frame.memory.remedy.key) {
+    binding.advice += fmt::format(": twice as many add {} mm2 of PHY and controller",
+                                  in_words(area.memory_interface));
+  }
+  return binding;
+}
+
 Binding without_advice(Binding binding) {
   binding.remedy = {};
   binding.advice = "no Gaussian contributes to the picture: there is nothing to change";

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "testbench/cost/cost.h"
 #include "testbench/result/frame_result.h"
 
 namespace sgs {
@@ -46,6 +47,10 @@ struct Binding {
 };
 
 Binding find_binding(const FrameResult& frame);
+
+// The same; where it advises more channels of the memory, it says what twice as many add to `area`,
+// the frame's.
+Binding find_binding(const FrameResult& frame, const AreaTotals& area);
 
 // The same of a frame whose picture is empty: nothing of the configuration is to blame.
 Binding without_advice(Binding binding);

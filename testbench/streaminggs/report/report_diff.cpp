@@ -73,7 +73,11 @@ void compare_facts(ReportDiff& diff) {
 
 void compare_config(const ReportedRun& a, const ReportedRun& b, ReportDiff& diff) {
   const auto value = [](const ReportedRun& run, const std::string& key) {
-    return run.config.at(key) + (run.chosen.count(key) > 0 ? " (chosen)" : "");
+    const std::string& told = run.config.at(key);
+    const auto used = run.used.find(key);
+    const bool partly = used != run.used.end() && used->second != told;
+    return told + (run.chosen.count(key) > 0 ? " (chosen)" : "") +
+           (partly ? fmt::format(" ({} used)", used->second) : "");
   };
   for (const std::string& key : keys_of(a.config, b.config)) {
     if (b.config.count(key) == 0) {

@@ -10,7 +10,8 @@
 
 namespace sgs {
 
-// A key of both configurations; "(chosen)" behind a value that the model chose.
+// A key of both configurations; "(chosen)" behind a value that the model chose, "(N used)" behind
+// the size of a memory that is not used whole.
 struct ConfigChange {
   std::string key, a, b;
 };

@@ -139,7 +139,7 @@ ReportedView read_view(const JsonPlace& report) {
   view.cycles = report.at("frame").at("cycles").number();
   const JsonPlace psnr_db = report.at("image").at("psnr_db");
   view.psnr_db = psnr_db.json().is_null() ? "equal" : fmt::format("{:.2f}", psnr_db.number());
-  view.model = report.at("image").at("equals_streaming_renderer").json() == true;
+  view.equals = report.at("image").at("equals_streaming_renderer").json() == true;
   view.holds = report.at("binding").at("holds").text();
   add_units(report.at("units"), view);
   view.of(Quantity::kBusy).whole = view.cycles;
@@ -148,6 +148,15 @@ ReportedView read_view(const JsonPlace& report) {
   add_costs(report.at("area_mm2"), "", view.of(Quantity::kArea));
   add_owners(report.at("area_mm2"), view.of(Quantity::kDieArea));
   return view;
+}
+
+// Unused memory is not built: what a key gives may be more than the machine has.
+void add_used(const JsonPlace& view, ReportedRun& run) {
+  if (!view.has("sram")) return;
+  view.at("sram").each([&](const std::string& key, const JsonPlace& bytes) {
+    const std::string path = "sram." + key;
+    if (run.config.count(path) > 0) run.used[path] = bytes.json().dump();
+  });
 }
 
 void check_version(const JsonPlace& report) {
@@ -201,6 +210,7 @@ ReportedRun read_reported_run(const std::string& path) {
   } else {
     run.views.push_back(read_view(report));
   }
+  add_used(first, run);
   const JsonPlace chosen = first.at("chosen");
   for (std::size_t i = 0; i < chosen.entries(); ++i) {
     run.chosen.insert(chosen.at(i).at("key").text());

@@ -35,7 +35,7 @@ struct ReportedView {
   std::vector<std::pair<std::string, std::string>> facts;
   double cycles = 0;
   std::string psnr_db;  // "equal" where nothing differs from the reference picture
-  bool model = true;    // the frame is the model's, to the byte
+  bool equals = true;   // the frame is the streaming renderer's, to the byte
   std::string holds;    // binding.holds
   std::array<ReportedQuantity, kQuantities> quantities;
   const ReportedQuantity& of(Quantity q) const { return quantities[static_cast<std::size_t>(q)]; }
@@ -46,6 +46,7 @@ struct ReportedRun {
   std::string path;                           // the report's file
   std::map<std::string, std::string> config;  // every key with its path, and its value as JSON
   std::set<std::string> chosen;               // those of them that the model chose
+  std::map<std::string, std::string> used;    // bytes that are built, by the key with the size
   std::vector<ReportedView> views;            // by number
 };
 

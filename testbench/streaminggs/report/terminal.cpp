@@ -15,11 +15,6 @@ std::string percent(double share) {
   return std::isnan(share) ? "none" : fmt::format("{:.1f} %", 100 * share);
 }
 
-// "6.50 (4.88 .. 9.50)"
-std::string in_words(const Band& mm2) {
-  return fmt::format("{:.2f} ({:.2f} .. {:.2f})", mm2.middle, mm2.low, mm2.high);
-}
-
 // "vsu 0.37, merge 0.08"
 std::string in_words(const CostResult& area) {
   std::string parts;
@@ -43,8 +38,8 @@ void print_order_loss(const OrderLoss& loss, const GoldenFrame& golden) {
 }  // namespace
 
 void print_table_head(Detail detail) {
-  fmt::print("{:>4} {:>8} {:>8} {:>7} {:>13} {:>7} {:>8} {:>8}", "view", "PSNR dB", "SSIM",
-             "= model", "cycles", "fps", "DRAM MB", "mJ");
+  fmt::print("{:>4} {:>9} {:>8} {:>8} {:>20} {:>13} {:>7} {:>8} {:>8}", "view", "px", "PSNR dB",
+             "SSIM", "= streaming renderer", "cycles", "fps", "DRAM MB", "mJ");
   if (detail == Detail::kAll) {
     fmt::print(" {:>6} {:>7} {:>10} {:>5} {:>7}", "x once", "W", "binding", "busy", "wall s");
   }
@@ -52,7 +47,8 @@ void print_table_head(Detail detail) {
 }
 
 void print_table_line(const ViewResult& v, Detail detail) {
-  fmt::print("{:>4} {:>8} {:>8.5f} {:>7} {:>13} {:>7} {:>8.2f} {:>8.3f}", v.view,
+  fmt::print("{:>4} {:>9} {:>8} {:>8.5f} {:>20} {:>13} {:>7} {:>8.2f} {:>8.3f}", v.view,
+             fmt::format("{}x{}", v.camera.width, v.camera.height),
              std::isinf(v.psnr_db) ? "equal" : fmt::format("{:.2f}", v.psnr_db), v.ssim,
              v.equals_golden ? "yes" : "NO", grouped(v.run.cycles),
              grouped(static_cast<std::uint64_t>(std::llround(1 / v.run.time_s()))),
@@ -112,9 +108,12 @@ void print_scene(const PreparedScene& scene, const RunConfig& config, bool dropp
 }
 
 void print_area(const ViewResult& v, const std::string& technology, Detail detail) {
-  fmt::print("area {} mm2 at {}; {} with PHY and controller of the memory\n",
+  const MemoryInterface& interface = v.memory_interface;
+  fmt::print("area {} mm2 at {}; {} with PHY and controller of {}\n",
              in_words(v.area_totals_mm2.without_memory_interface), technology,
-             in_words(v.area_totals_mm2.with_memory_interface));
+             in_words(v.area_totals_mm2.with_memory_interface),
+             interface.area_of.empty() ? "the memory" : interface.area_of);
+  if (!interface.area_known || detail == Detail::kAll) fmt::print("{}\n", interface.in_words());
   if (detail == Detail::kShort) return;
   fmt::print("  mm2 by kind: {}\n", in_words(v.area_mm2));
   fmt::print("  mm2 by owner, with its on-chip memory: {}\n", in_words(v.area_by_owner_mm2));

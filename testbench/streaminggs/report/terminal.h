@@ -26,7 +26,8 @@ void print_regions(const ViewResult& view);
 // for.
 void print_scene(const PreparedScene& scene, const RunConfig& config, bool dropping);
 
-// Area with its band; the same for all views. technology: its name.
+// Area with its band, and where none is known for the memory's interface a line about that; the
+// same for all views. technology: its name.
 void print_area(const ViewResult& view, const std::string& technology, Detail detail);
 // Lanes of each datapath; the same for all views.
 void print_lanes(const ViewResult& view);

@@ -206,7 +206,7 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
     fmt::print("frame {}: {}\n", i, doubt);
     break;  // the others likely say the same
   }
-  if (!equal) fmt::print("\na frame differs from the golden renderer's\n");
+  if (!equal) fmt::print("\na frame differs from the streaming renderer's\n");
   fmt::print("\nwritten to {}\n", out.path_report().parent_path().string());
   return equal ? 0 : 1;
 }

@@ -13,6 +13,7 @@
 #include "algorithm/storage/storage_scheme.h"
 #include "modules/dram/address_mapping.h"
 #include "modules/dram/memspec.h"
+#include "modules/memory_too_small.h"
 #include "modules/storage_keys.h"
 
 namespace sgs {
@@ -89,14 +90,29 @@ std::string place_of(const ConfigOrigin& value, const RunConfig& config) {
   return value.origin + (overrides.empty() ? "" : " with") + overrides;
 }
 
-void fit_memories(RunConfig& config) {
+// A size that a document gives, not 0, of a memory that can be fitted.
+struct GivenSize {
+  ConfigOrigin from;
+  std::string bytes;
+};
+
+std::vector<GivenSize> sizes_given(RunConfig& config) {
   const Json values = parse_json(to_json(config), "the configuration");
-  for (const char* key : config.design->fit_memories()) {
+  std::vector<GivenSize> sizes;
+  for (const char* key : (*config.kinds)[config.kind].design()->fit_memories()) {
+    const Json& bytes = values.at(pointer_to(key));
     for (const ConfigOrigin& value : config.origins) {
-      if (value.path != key || !is_override(value) || values.at(pointer_to(key)) == 0) continue;
-      throw InputError(
-          fmt::format("{}: got it with --fit-memories, expected one of the two", value.origin));
+      if (value.path == key && bytes != 0) sizes.push_back({value, bytes.dump()});
     }
+  }
+  return sizes;
+}
+
+void refuse_sizes_of_overrides(RunConfig& config) {
+  for (const GivenSize& size : sizes_given(config)) {
+    if (!is_override(size.from)) continue;
+    throw InputError(
+        fmt::format("{}: got it with --fit-memories, expected one of the two", size.from.origin));
   }
 }
 
@@ -105,7 +121,6 @@ void resolve_machine(RunConfig& config) {
     config.dram.validate();
     const Memspec device = load_memspec(config.dram.memspec);
     const AddressMapping mapping(config.dram, device);
-    config.dram.io_pj_per_bit = config.dram.io_pj_per_bit_of(device);
     config.add_choices(scheme_of(config.storage.order).choose(config.storage, mapping.run_bytes()));
     config.design->resolve(config.storage, config.chosen);
   });
@@ -131,14 +146,19 @@ void naming_origins(const RunConfig& config, const std::function<void()>& act) {
   try {
     act();
   } catch (const InputError& error) {
-    const std::string message = error.what();
-    const std::string key = message.substr(0, message.find(": "));
+    const bool could_fit =
+        !config.memories_fitted && dynamic_cast<const MemoryTooSmall*>(&error) != nullptr;
+    const std::string told = error.what();
+    const std::string message = told + (could_fit ? "; --fit-memories sizes it" : "");
+    const std::string key = told.substr(0, told.find(": "));
     for (const char* section : {"", "storage."}) {
       for (const ConfigOrigin& value : config.origins) {
         if (value.path != section + key) continue;
-        throw InputError(fmt::format("{}: {}{}", place_of(value, config), section, message));
+        throw InputError(fmt::format("{}: {}{}", place_of(value, config), section,
+                                     is_override(value) ? told : message));
       }
     }
+    if (could_fit) throw InputError(message);
     throw;
   }
 }
@@ -188,8 +208,25 @@ RunConfig read_run_config(const ConfigDocument& document, const std::vector<Mach
 
 RunConfig read_run_config(const ConfigSource& source, const std::vector<MachineKind>& kinds) {
   RunConfig config = read_run_config(source.document(), kinds);
-  if (source.fit_memories) fit_memories(config);
+  if (!source.fit_memories) return config;
+  refuse_sizes_of_overrides(config);
+  config.sizes_replaced = sizes_to_replace(config, source.preset_in_words());
+  fit_memories(config);
   return config;
+}
+
+void fit_memories(RunConfig& config) {
+  config.design->fit_memories();
+  config.memories_fitted = true;
+}
+
+std::string sizes_to_replace(RunConfig& config, const std::string& preset) {
+  std::vector<std::string> given;
+  for (const auto& [from, bytes] : sizes_given(config)) {
+    if (from.origin == preset) continue;
+    given.push_back(fmt::format("{} {} ({})", from.path, bytes, from.origin));
+  }
+  return given.empty() ? "" : "memories are fitted, not as given: " + join(given);
 }
 
 RunConfig as_decided(ConfigDocument document, RunConfig& resolved) {

@@ -26,6 +26,8 @@ struct RunConfig {
   std::vector<AutoChoice> chosen;     // values left to the model
   std::vector<ConfigOrigin> origins;  // where the document says what
   std::string storage_source;  // one line about a packed scene: the file, its contents, who differs
+  bool memories_fitted = false;
+  std::string sizes_replaced;  // one line about sizes that are given, and that fitting replaces
 
   const char* machine() const { return (*kinds)[kind].name; }
   void add_choices(const std::vector<StorageChoice>& choices);
@@ -45,12 +47,19 @@ RunConfig read_run_config(const ConfigDocument& document, const std::vector<Mach
 // As a command line says. Throws InputError, also where it sizes a memory that is to be fitted.
 RunConfig read_run_config(const ConfigSource& source, const std::vector<MachineKind>& kinds);
 
+// Before resolve(), which then makes on-chip memories as large as all else needs.
+void fit_memories(RunConfig& config);
+
+// The line of RunConfig::sizes_replaced, were the memories fitted; empty where none is given.
+// preset: the origin that is a shipped configuration, whose sizes are there to be replaced.
+std::string sizes_to_replace(RunConfig& config, const std::string& preset);
+
 // The document's, with what was decided for `resolved`, which was read from it, and stored as that
 // is. Whatever is derived stays open, and so a key of it can be changed.
 RunConfig as_decided(ConfigDocument document, RunConfig& resolved);
 
 // Runs `act`. An error that refuses a key, by its path or by that below `storage`, then also says
-// where its value is from.
+// where its value is from; one about a memory that is too small says who sizes it.
 void naming_origins(const RunConfig& config, const std::function<void()>& act);
 
 // Makes it the resolved, valid configuration. Throws InputError, also for what --set says of

@@ -110,7 +110,7 @@ JudgedFrame judge_frame(const PreparedScene& scene, const ViewJob& job,
 
 ViewResult view_result(const PreparedScene& scene, const ViewJob& job, ReferencePictures pictures,
                        GoldenFrame golden, JudgedFrame judged, FrameResult run,
-                       const Technology& technology) {
+                       const DramConfig& dram, const Technology& technology) {
   ViewResult view;
   static_cast<ReferencePictures&>(view) = std::move(pictures);
   static_cast<JudgedFrame&>(view) = std::move(judged);
@@ -119,12 +119,13 @@ ViewResult view_result(const PreparedScene& scene, const ViewJob& job, Reference
   view.golden = std::move(golden);
   view.run = std::move(run);
   view.image_hash = scene.image_hash;
-  view.binding = find_binding(view.run);
+  view.area_totals_mm2 = area_totals(view.run, technology);
+  view.memory_interface = memory_interface_of(dram, technology);
+  view.binding = find_binding(view.run, view.area_totals_mm2);
   if (view.golden.contributing == 0) view.binding = without_advice(view.binding);
   view.energy_j = energy_of(view.run, technology);
   view.area_mm2 = area_of(view.run, technology);
   view.area_by_owner_mm2 = area_by_owner(view.run, technology);
-  view.area_totals_mm2 = area_totals(view.run, technology);
   view.sram_model = technology.sram;
   const SceneLayout& layout = scene.stored.image.layout;
   view.once_bytes = view.golden.contributing * layout.record_bytes() + job.frame.frame_buffer.bytes;
@@ -145,7 +146,7 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
   const bool equal = run.frame == encode_frame(job.frame.frame_format, golden.image);
   JudgedFrame judged = judge_frame(scene, job, pictures, golden, run.frame);
   ViewResult view = view_result(scene, job, std::move(pictures), std::move(golden),
-                                std::move(judged), std::move(run), technology);
+                                std::move(judged), std::move(run), config.dram, technology);
   view.equals_golden = equal;
   view.left_out = std::move(entries);
   return view;

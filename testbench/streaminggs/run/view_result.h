@@ -13,6 +13,7 @@
 #include "testbench/cost/cost.h"
 #include "testbench/result/frame_result.h"
 #include "testbench/streaminggs/report/binding.h"
+#include "testbench/streaminggs/report/memory_interface.h"
 #include "testbench/streaminggs/run/file_order.h"
 #include "testbench/streaminggs/run/frame_run.h"
 #include "testbench/streaminggs/run/order_loss.h"
@@ -65,6 +66,7 @@ struct ViewResult : ReferencePictures, JudgedFrame {
   Binding binding;
   CostResult energy_j, area_mm2, area_by_owner_mm2;
   AreaTotals area_totals_mm2;
+  MemoryInterface memory_interface;
   SramModel sram_model;          // the model they were made with
   std::uint64_t image_hash = 0;  // hash of the bytes loaded into the memory
   std::uint64_t once_bytes = 0;  // each contributing Gaussian read once, each pixel written
@@ -75,9 +77,10 @@ struct ViewResult : ReferencePictures, JudgedFrame {
 };
 
 // Makes the result from these and a simulation; `left_out` and `equals_golden` are not filled in.
+// dram: of the simulation.
 ViewResult view_result(const PreparedScene& scene, const ViewJob& job, ReferencePictures pictures,
                        GoldenFrame golden, JudgedFrame judged, FrameResult run,
-                       const Technology& technology);
+                       const DramConfig& dram, const Technology& technology);
 
 // Simulates one view and judges it: golden picture, costs, binding unit. Throws InputError when
 // scene and frame do not fit the memory, std::runtime_error when the simulation fails.

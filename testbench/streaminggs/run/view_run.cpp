@@ -123,7 +123,7 @@ int run_views(const NumberedCameras& views, RunSetting& setting, const ResultFol
   if (setting.detail == Detail::kAll) print_lanes(results.front());
   print_choices(setting.config.chosen, setting.detail);
   for (const auto& [view, why] : failed) fmt::print("\nview {} failed: {}\n", view, why);
-  if (!equal) fmt::print("\nthe frame differs from the golden renderer's\n");
+  if (!equal) fmt::print("\nthe frame differs from the streaming renderer's\n");
   fmt::print("\nwritten to {}\n", out.report().parent_path().string());
   return equal && failed.empty() ? 0 : 1;
 }

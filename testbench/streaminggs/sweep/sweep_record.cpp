@@ -60,6 +60,7 @@ Json kept_of(Json report) {
   for (const char* part : {"ledger", "left_out", "datapath"}) report.erase(part);
   drop(report, "sram", "uses");
   drop(report, "energy", "bands");
+  drop(report, "memory_interface", "area_source");
   if (report.contains("area_mm2")) keep_total_band(report["area_mm2"]);
   for (const char* key : {"command", "configuration"}) drop(report, "provenance", key);
   report["host"] = {{"simulation_wall_s", report["host"]["simulation_wall_s"]}};

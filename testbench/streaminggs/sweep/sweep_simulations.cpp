@@ -79,10 +79,10 @@ std::unique_ptr<ChildProcess> SweepSimulations::start(const SweepTask& task) {
     FrameResult frame =
         simulate_frame(*config.design, job.frame, scene->stored.image, config.dram, {});
     if (frame.frame != expected->bytes) {
-      throw std::runtime_error("the frame differs from the golden renderer's");
+      throw std::runtime_error("the frame differs from the streaming renderer's");
     }
     ViewResult view = view_result(*scene, job, *references, expected->golden, expected->judged,
-                                  std::move(frame), technology_);
+                                  std::move(frame), config.dram, technology_);
     view.equals_golden = true;
     return line_of_done(task.key, task.words, *RunReport(config, facts_).of_view(view, *scene));
   });

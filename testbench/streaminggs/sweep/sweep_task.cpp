@@ -72,13 +72,16 @@ RunConfig SweepPlan::resolved(const SweepTask& task) const {
   return config;
 }
 
-void SweepPlan::resolve_and_name(SweepTask& task) const {
+void SweepPlan::resolve_and_name(SweepTask& task) {
   const SceneArguments& scene = task.scene->arguments();
   std::string all =
       fmt::format("{:016x} {:016x} {:016x} {} {} {}\n", program_hash_, defaults_.technology_hash,
                   task.scene->digest(), scene.drop_invalid, task.view, text_of(task.camera));
   try {
     RunConfig config = resolved(task);
+    if (!config.sizes_replaced.empty() && said_.insert(config.sizes_replaced).second) {
+      fmt::print(stderr, "streaminggs: note: {}\n", config.sizes_replaced);
+    }
     task.storage = task.scene->storage_key(config);
     const std::string text = to_json(config), golden = config.design->golden_key();
     task.picture = golden.empty() ? text : fmt::format("{} {}", config.machine(), golden);

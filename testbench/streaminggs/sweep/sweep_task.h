@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,12 +62,13 @@ class SweepPlan {
  private:
   SweepScene& scene_of(const SceneArguments& arguments);
   std::vector<SceneArguments> scenes_of(const SweepPoint& point) const;
-  void resolve_and_name(SweepTask& task) const;
+  void resolve_and_name(SweepTask& task);
 
   const SweepDefaults defaults_;
   const Kinds& kinds_;
   const std::uint64_t program_hash_;
   std::map<std::string, std::unique_ptr<SweepScene>> scenes_;
+  std::set<std::string> said_;  // notes, each once
 };
 
 }  // namespace sgs

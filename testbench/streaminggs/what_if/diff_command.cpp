@@ -45,7 +45,7 @@ std::string change(double a, double b) {
   return a == 0 ? "new" : percent(b / a - 1);
 }
 
-// Behind a change of a frame's cycles, which may be none.
+// Behind a change of a frame's cycles or joules, which may be none.
 std::string noise_of(double a, double b) {
   return a > 0 && below_noise(b / a - 1) ? fmt::format("   {}", kBelowNoise) : "";
 }
@@ -80,6 +80,13 @@ void print_views(const ReportDiff& diff) {
   }
 }
 
+// Cycles have noise, and joules of frames of unlike cycles.
+bool has_noise(Quantity quantity, const ReportDiff& diff) {
+  if (diff.views.size() > 1) return false;
+  const auto& [a, b] = diff.views[0];
+  return quantity == Quantity::kBusy || (quantity == Quantity::kJoules && a->cycles != b->cycles);
+}
+
 void print_wholes(const ReportDiff& diff) {
   fmt::print("\n{:<18} {:>15} {:>15} {:>10}\n", diff.views.size() > 1 ? "mean of a view" : "", "A",
              "B", "change");
@@ -87,7 +94,7 @@ void print_wholes(const ReportDiff& diff) {
     const QuantityWords& words = words_of(q.quantity);
     fmt::print("{:<18} {:>15} {:>15} {:>10}{}\n", fmt::format("{} {}", words.name, words.unit),
                in_words(q.a, q.quantity), in_words(q.b, q.quantity), change(q.a, q.b),
-               q.quantity == Quantity::kBusy && diff.views.size() == 1 ? noise_of(q.a, q.b) : "");
+               has_noise(q.quantity, diff) ? noise_of(q.a, q.b) : "");
   }
 }
 
@@ -117,8 +124,10 @@ void print(const ReportedRun& a, const ReportedRun& b, const ReportDiff& diff, d
     for (const std::string& sentence : diff.unlike) fmt::print("  {}\n", sentence);
   }
   for (const auto& [of_a, of_b] : diff.views) {
-    if (!of_a->model) fmt::print("\nview {}: A's frame is not its model's\n", of_a->view);
-    if (!of_b->model) fmt::print("\nview {}: B's frame is not its model's\n", of_b->view);
+    if (!of_a->equals)
+      fmt::print("\nview {}: A's frame differs from the streaming renderer's\n", of_a->view);
+    if (!of_b->equals)
+      fmt::print("\nview {}: B's frame differs from the streaming renderer's\n", of_b->view);
   }
   print_config(diff);
   print_views(diff);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algorithm/files/input_error.h"
 #include "testbench/streaminggs/report/frame_noise.h"
 
 namespace sgs {
@@ -59,6 +60,27 @@ double energy_saved(const Outcome& base, const Outcome& doubled) {
 std::string change_in_words(double saved) {
   const double tenths = std::round(-1000 * saved);
   return tenths == 0 ? "0.0 %" : fmt::format("{:+.1f} %", tenths / 10);
+}
+
+bool time_is_noise(const Outcome& base, const Outcome& doubled) {
+  return below_noise(time_saved(base, doubled));
+}
+
+bool energy_is_noise(const Outcome& base, const Outcome& doubled) {
+  return base.cycles != doubled.cycles && below_noise(energy_saved(base, doubled));
+}
+
+std::string saved_per_mm2(const Outcome& base, const Outcome& doubled, double saved) {
+  const double added = doubled.mm2_with_memory_interface - base.mm2_with_memory_interface;
+  if (added < kLeastAddedArea * base.mm2_with_memory_interface) return "-";
+  return change_in_words(saved / added);
+}
+
+std::string noise_in_words(const Outcome& base, const Outcome& doubled) {
+  std::vector<std::string> noise;
+  if (time_is_noise(base, doubled)) noise.emplace_back("time");
+  if (energy_is_noise(base, doubled)) noise.emplace_back("energy");
+  return noise.empty() ? "" : fmt::format("; {} {}", join(noise, " and "), kBelowNoise);
 }
 
 void rank(const Outcome& base, std::vector<Doubling>& doublings) {

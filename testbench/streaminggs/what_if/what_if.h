@@ -39,6 +39,20 @@ double energy_saved(const Outcome& base, const Outcome& doubled);
 // "-11.4 %" of what 0.114 is saved of, "0.0 %" of what stays.
 std::string change_in_words(double saved);
 
+// Whether it is below the noise of a frame. In as many cycles, energy has none.
+bool time_is_noise(const Outcome& base, const Outcome& doubled);
+bool energy_is_noise(const Outcome& base, const Outcome& doubled);
+
+// A gain over the area that it takes says something of more than this share of the base's.
+constexpr double kLeastAddedArea = 0.005;
+
+// "-1.3 %" of what is saved with each mm2 that is added, PHY and controller included; "-" below
+// kLeastAddedArea.
+std::string saved_per_mm2(const Outcome& base, const Outcome& doubled, double saved);
+
+// "; time and energy below the noise of a frame": what of them is; empty where neither is.
+std::string noise_in_words(const Outcome& base, const Outcome& doubled);
+
 // Most time saved first, the cheaper of equals; what was refused comes last.
 void rank(const Outcome& base, std::vector<Doubling>& doublings);
 

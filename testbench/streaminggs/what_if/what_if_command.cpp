@@ -16,6 +16,7 @@
 #include "testbench/result/collect.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/report/frame_noise.h"
+#include "testbench/streaminggs/report/memory_interface.h"
 #include "testbench/streaminggs/run/camera_check.h"
 #include "testbench/streaminggs/run/frame_run.h"
 #include "testbench/streaminggs/run/prepared_scene.h"
@@ -48,7 +49,7 @@ struct Base {
     changed.add_text(document, "the configuration");
     if (!assignment.empty()) changed.add_override(assignment);
     RunConfig config = read_run_config(changed, *kinds);
-    config.design->fit_memories();
+    fit_memories(config);
     resolve(config);
     adapt(config, scene.stored.image.layout.second_half);
     return config;
@@ -70,18 +71,19 @@ FrameResult run(const Base& base, const RunConfig& config, const Camera& camera,
   FrameResult frame = run_frame(*config.design, job, base.scene.stored.image, config.dram, {});
   if (frame.frame != golden &&
       frame.frame != encode_frame(job.frame_format, golden_of(base, config, job).image)) {
-    throw std::runtime_error(what + ": the frame differs from the golden renderer's");
+    throw std::runtime_error(what + ": the frame differs from the streaming renderer's");
   }
   return frame;
 }
 
 Outcome outcome_of(const FrameResult& frame, const Technology& technology) {
+  const AreaTotals area = area_totals(frame, technology);
   return {frame.cycles,
           frame.memory.bus_bytes,
           energy_of(frame, technology).total.middle,
           area_of(frame, technology).total.middle,
-          area_totals(frame, technology).with_memory_interface.middle,
-          find_binding(frame)};
+          area.with_memory_interface.middle,
+          find_binding(frame, area)};
 }
 
 // The number at "key.path" of a document.
@@ -99,20 +101,19 @@ void print(const Outcome& base, const std::vector<Doubling>& doublings) {
              "", base.binding.holds);
   for (const Doubling& d : doublings) {
     if (!d.refused.empty()) continue;
-    const double time = time_saved(base, d.outcome);
-    const double energy = energy_saved(base, d.outcome);
-    const bool noise = below_noise(time);
-    const double with_phy = d.outcome.mm2_with_memory_interface - base.mm2_with_memory_interface;
-    const auto per_mm2 = [&](double gain) {
-      return with_phy > 0 ? change_in_words(gain / with_phy) : std::string("-");
-    };
+    const double time = time_saved(base, d.outcome), energy = energy_saved(base, d.outcome);
     fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>+9.3f} {:>+9.3f} {:>10} {:>10}   {}{}\n",
                d.key, d.from, d.to, d.outcome.cycles, change_in_words(time),
-               change_in_words(energy), d.outcome.mm2 - base.mm2, with_phy,
-               noise ? "-" : per_mm2(time), per_mm2(energy), d.outcome.binding.holds,
-               noise ? fmt::format("; time {}", kBelowNoise) : "");
+               change_in_words(energy), d.outcome.mm2 - base.mm2,
+               d.outcome.mm2_with_memory_interface - base.mm2_with_memory_interface,
+               time_is_noise(base, d.outcome) ? "-" : saved_per_mm2(base, d.outcome, time),
+               energy_is_noise(base, d.outcome) ? "-" : saved_per_mm2(base, d.outcome, energy),
+               d.outcome.binding.holds, noise_in_words(base, d.outcome));
   }
-  fmt::print("with PHY: mm2 with PHY and controller of the memory's channels\n");
+  fmt::print(
+      "with PHY: mm2 with PHY and controller of the memory's channels; -: less than {:g} % of that "
+      "is added, or it is {}\n",
+      100 * kLeastAddedArea, kBelowNoise);
   for (const Doubling& d : doublings) {
     if (!d.refused.empty()) fmt::print("{}={}: cannot be: {}\n", d.key, d.to, d.refused);
   }
@@ -140,8 +141,9 @@ Json to_json(int view, const Outcome& base, const std::vector<Doubling>& doublin
     if (d.refused.empty()) {
       row.update(to_json(d.outcome), true);
       row["time_saved"] = time_saved(base, d.outcome);
-      row["time_below_noise"] = below_noise(time_saved(base, d.outcome));
+      row["time_below_noise"] = time_is_noise(base, d.outcome);
       row["energy_saved"] = energy_saved(base, d.outcome);
+      row["energy_below_noise"] = energy_is_noise(base, d.outcome);
     } else {
       row["refused"] = d.refused;
     }
@@ -191,6 +193,8 @@ int run(const WhatIfArguments& arguments, const Kinds& kinds) {
   Base base;
   base.kinds = &kinds;
   RunConfig config = read_run_config(arguments.config, kinds);
+  const std::string replaced = sizes_to_replace(config, arguments.config.preset_in_words());
+  if (!replaced.empty()) fmt::print("{}\n", replaced);
   std::optional<PackedScene> packed = arguments.load_packed();
   config.design->fit_frames([&] { return arguments.frame_sizes(); });
   if (packed) {
@@ -222,6 +226,8 @@ int run(const WhatIfArguments& arguments, const Kinds& kinds) {
   base.document = to_json(decided);
   Json report = Json::array();
   for (const auto& [number, camera] : views) report.push_back(run_view(base, number, camera));
+  const MemoryInterface interface = memory_interface_of(config.dram, base.technology);
+  if (!interface.area_known) fmt::print("{}\n", interface.in_words());
   if (!arguments.out.empty()) {
     const std::string text = report.dump(2) + "\n";
     write_whole_file(arguments.out, text.data(), text.size());

@@ -16,6 +16,7 @@ struct Inner {
 struct Outer {
   std::uint8_t lanes = 16;
   double rate_mhz = 800.0;
+  std::optional<double> pj;
   std::string label = "x";
   Colour colour = Colour::kRed;
   std::vector<double> taps = {1.0};
@@ -31,6 +32,7 @@ void visit(ConfigVisitor& v, Inner& c) {
 void visit(ConfigVisitor& v, Outer& c) {
   v("lanes", c.lanes, at_least(1), "lanes");
   v("rate_mhz", c.rate_mhz, in_range(1.0, 5000.0), "rate");
+  v("pj", c.pj, in_range(0.0, 9.0), "energy");
   v("label", c.label, "text");
   v("colour", c.colour, names<Colour>({{"red", Colour::kRed}, {"green", Colour::kGreen}}), "hue");
   v("taps", c.taps, in_range(-1.0, 1.0), "filter");
@@ -64,6 +66,9 @@ TEST_CASE("strict json: values, names, nested objects and defaults") {
                            "sets": {"a": {"on": true}}, "notes": {"k": "v"}})");
   CHECK(c.lanes == 8);
   CHECK(c.rate_mhz == 800.0);
+  CHECK(!c.pj);
+  CHECK(read(R"({"pj": 0})").pj == 0.0);
+  CHECK(!read(R"({"pj": null})").pj);
   CHECK(c.colour == Colour::kGreen);
   CHECK(c.inner.depth == 9);
   CHECK(c.taps == std::vector<double>{0.5, -1.0});
@@ -74,12 +79,12 @@ TEST_CASE("strict json: values, names, nested objects and defaults") {
 
 TEST_CASE("strict json: refusals name file, key, what was found and what is allowed") {
   CHECK(refusal(R"({"lane": 8})") ==
-        "test.json: lane: unknown key, expected one of colour, inner, label, lanes, notes, "
-        "rate_mhz, sets, taps; did you mean lanes?");
+        "test.json: lane: unknown key; did you mean lanes? Expected one of colour, inner, label, "
+        "lanes, notes, pj, rate_mhz, sets, taps");
   CHECK(refusal(R"({"colur": "red"})").find("; did you mean colour?") != std::string::npos);
   CHECK(refusal(R"({"depht": 3})").find("; did you mean inner.depth?") != std::string::npos);
   CHECK(refusal(R"({"colour": "gren"})") ==
-        "test.json: colour: got \"gren\", expected one of red, green; did you mean green?");
+        "test.json: colour: got \"gren\"; did you mean green? Expected one of red, green");
   CHECK(refusal(R"({"inner": {"width": 8}})") ==
         "test.json: inner.width: unknown key, expected one of depth, on");
   CHECK(refusal(R"({"inner": {"depth": 0}})") ==
@@ -95,6 +100,8 @@ TEST_CASE("strict json: refusals name file, key, what was found and what is allo
         "test.json: lanes: got \"8\", expected an integer in [1, 255]");
   CHECK(refusal(R"({"rate_mhz": 0})") ==
         "test.json: rate_mhz: got 0, expected a number in [1, 5000]");
+  CHECK(refusal(R"({"pj": -0.5})") ==
+        "test.json: pj: got -0.5, expected a number in [0, 9], or null");
   CHECK(refusal(R"({"colour": "blue"})") ==
         "test.json: colour: got \"blue\", expected one of red, green");
   CHECK(refusal(R"({"inner": 3})") == "test.json: inner: got 3, expected an object");
@@ -165,9 +172,11 @@ TEST_CASE("strict json: what is printed reads back as the same configuration") {
   CHECK(config_to_json(back) == text);
   CHECK(back.lanes == 3);
   CHECK(back.rate_mhz == c.rate_mhz);
+  CHECK(!back.pj);
   CHECK(back.sets.at("one").depth == 77);
   CHECK(back.notes.at("why") == "\"quoted\"");
   CHECK(config_listing(c).find("inner.depth = 4  (1..1024)  entries\n") != std::string::npos);
+  CHECK(config_listing(c).find("pj = null  (0..9, null)  energy\n") != std::string::npos);
 }
 
 }  // namespace

@@ -130,6 +130,7 @@ TEST_CASE("cost: area with and without the memory's interface, whatever the tabl
     CHECK(totals.with_memory_interface.low == Approx(1.5 + 16.384 + 4 * 0.25));
     CHECK(totals.with_memory_interface.middle == Approx(3 + 16.384 + 4 * 0.5));
     CHECK(totals.with_memory_interface.high == Approx(9 + 16.384 + 4 * 1));
+    CHECK(totals.memory_interface.high == Approx(4 * 1));
     CHECK((counted ? totals.with_memory_interface : totals.without_memory_interface).middle ==
           area_of(frame(), technology).total.middle);
   }

@@ -56,6 +56,17 @@ TEST_CASE("binding: the memory's buses are one of the resources") {
   CHECK(find_binding(frame_of(activities, 0.9)).remedy.key == "channels");
 }
 
+TEST_CASE("binding: more channels are advised with what they cost") {
+  AreaTotals area;
+  area.memory_interface = {3, 5, 8};
+  const auto advice = [&](double bus) {
+    return find_binding(frame_of({activity("unit", 800)}, bus), area).advice;
+  };
+  CHECK(advice(0.9) ==
+        "raise channels: twice as many add 5.00 (3.00 .. 8.00) mm2 of PHY and controller");
+  CHECK(advice(0.7) == "raise more_unit");
+}
+
 TEST_CASE("binding: a resource is as busy as its busiest activity") {
   const std::vector<ActivityResult> activities = {
       activity("filters", 100), activity("filters", 700), activity("filters", 300),

@@ -35,7 +35,7 @@ std::map<std::string, Limits> stated_limits(const std::string& preset) {
   RunConfig config = preset_with(preset, {});
   const std::unique_ptr<ConfigWriter> listing = make_listing_writer();
   visit(static_cast<ConfigVisitor&>(*listing), config);
-  const std::regex line(R"(([a-z0-9_.]+) = \S*  \((-?[0-9.e+]+)\.\.([0-9.e+]+)\)  .*)");
+  const std::regex line(R"(([a-z0-9_.]+) = \S*  \((-?[0-9.e+]+)\.\.([0-9.e+]+)(?:, null)?\)  .*)");
   std::map<std::string, Limits> stated;
   std::istringstream lines(listing->text());
   for (std::string text; std::getline(lines, text);) {

@@ -154,6 +154,22 @@ TEST_CASE("diff: area by owner, the memory's interface included, where both repo
   }
 }
 
+TEST_CASE("diff: a memory that is not used whole says what of it is") {
+  const ScratchFolder scratch;
+  const auto with_memory = [](int bytes) {
+    json view = view_of(0);
+    view["config"]["sram"] = {{"input_bytes", bytes}};
+    view["sram"] = {{"input_bytes", 700}, {"input_available_bytes", bytes}};
+    return view;
+  };
+  const ReportedRun a = read(scratch, "a.json", with_memory(900));
+  const ReportedRun b = read(scratch, "b.json", with_memory(700));
+  const ReportDiff diff = diff_runs(a, b);
+  REQUIRE(diff.config.size() == 1);
+  CHECK(diff.config[0].a == "900 (700 used)");
+  CHECK(diff.config[0].b == "700");
+}
+
 TEST_CASE("diff: by weight, quantities and parts, and units that only one run has") {
   const ScratchFolder scratch;
   json changed = view_of(0);

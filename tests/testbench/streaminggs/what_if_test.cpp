@@ -66,6 +66,26 @@ TEST_CASE("what-if: what is saved is a change, and nothing has no sign") {
   }
 }
 
+TEST_CASE("what-if: a gain over area, of no trifle of area, and what is noise") {
+  const Outcome base = outcome(1000, 5);
+  for (const auto& [mm2, saved, says] : {std::tuple{7.0, 0.5, "-25.0 %"},
+                                         {7.0, -0.5, "+25.0 %"},
+                                         {5.0, 0.5, "-"},
+                                         {4.0, 0.5, "-"},
+                                         {5.024, 0.5, "-"},
+                                         {5.1, 0.5, "-500.0 %"}}) {
+    INFO(mm2 << " mm2, " << saved);
+    CHECK(saved_per_mm2(base, outcome(500, mm2), saved) == says);
+  }
+  Outcome alike = outcome(996, 7);
+  CHECK(noise_in_words(base, alike) == "; time below the noise of a frame");
+  alike.joules = 1.004;
+  CHECK(noise_in_words(base, alike) == "; time and energy below the noise of a frame");
+  CHECK(noise_in_words(base, base).empty());
+  alike.cycles = base.cycles;
+  CHECK(noise_in_words(base, alike).empty());  // of what was added, for certain
+}
+
 TEST_CASE("what-if: ranked by time saved, the smaller of equals first, the refused last") {
   const Outcome base = outcome(1000, 5);
   std::vector<Doubling> doublings = {refused("impossible"), doubling("slower", outcome(1100, 6)),
