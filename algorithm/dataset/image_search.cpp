@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "algorithm/files/input_error.h"
+#include "algorithm/files/input_file.h"
 #include "algorithm/image/image_io.h"
 
 namespace sgs {
@@ -19,15 +20,8 @@ namespace fs = std::filesystem;
 constexpr std::array<const char*, 6> kExtensions = {".png",  ".jpg", ".jpeg",
                                                     ".webp", ".tif", ".tiff"};
 
-std::string lowered(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-bool is_extension(const std::string& extension) {
-  const std::string lower = lowered(extension);
-  return std::find(kExtensions.begin(), kExtensions.end(), lower) != kExtensions.end();
+bool has_extension(const fs::path& path) {
+  return std::find(kExtensions.begin(), kExtensions.end(), extension_of(path)) != kExtensions.end();
 }
 
 bool is_there(const fs::path& path) {
@@ -79,10 +73,9 @@ std::vector<std::string> with_extension_in_any_case(const std::vector<std::strin
     std::error_code failed;
     for (const auto& entry : fs::directory_iterator(wanted.parent_path(), failed)) {
       const fs::path& path = entry.path();
-      const std::string extension = path.extension().string();
-      const bool other_case = path.stem() == wanted.stem() &&
-                              lowered(extension) == lowered(wanted.extension().string());
-      const bool added = path.stem() == wanted.filename() && is_extension(extension);
+      const bool other_case =
+          path.stem() == wanted.stem() && extension_of(path) == extension_of(wanted);
+      const bool added = path.stem() == wanted.filename() && has_extension(path);
       if ((other_case || added) && is_there(path)) add_once(found, path);
     }
   }
@@ -117,7 +110,7 @@ std::string slashed(std::string name) {
 
 std::string view_name(const std::string& name) {
   fs::path path = fs::path(name).lexically_normal();
-  if (is_extension(path.extension().string())) path.replace_extension();
+  if (has_extension(path)) path.replace_extension();
   return path.string();
 }
 

@@ -7,8 +7,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 #include "algorithm/files/input_error.h"
 
@@ -52,6 +54,13 @@ std::string InputFile::text_from(std::uint64_t offset_bytes, std::uint64_t most_
   std::string text(std::min(most_bytes, size_bytes_ - offset_bytes), '\0');
   read_at(offset_bytes, text.data(), text.size());
   return text;
+}
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
 }
 
 bool LineReader::next(std::string_view& line) {

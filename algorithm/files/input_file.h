@@ -33,6 +33,9 @@ class InputFile {
   std::uint64_t size_bytes_ = 0;
 };
 
+// The extension of a path in small letters, with its dot: ".ply".
+std::string extension_of(const std::string& path);
+
 // A text file line by line.
 constexpr std::size_t kMostLineBytes = 4096;
 

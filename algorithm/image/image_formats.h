@@ -1,8 +1,10 @@
 // The formats of image files, one source file each.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
+#include <vector>
 
 #include "algorithm/image/image.h"
 
@@ -67,6 +69,17 @@ ImageHeader read_jpeg_header(const std::string& path);
 // InputError: not a WebP, an animation, cut off or damaged, or far shorter than its size in pixels
 // asks for.
 RgbaImage read_webp(const std::string& path);
+
+// Its samples as they are stored.
+struct RgbaSamples {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;  // [height, width, 4]
+
+  const std::uint8_t* pixel(std::uint64_t index) const { return &rgba[4 * index]; }
+};
+
+// Those of a whole file in memory. origin: for messages. Throws InputError as read_webp does.
+RgbaSamples decode_webp(const std::string& origin, const std::string& bytes);
 
 // Throws InputError as read_webp does, but looks at no pixel.
 ImageHeader read_webp_header(const std::string& path);

@@ -39,18 +39,23 @@ ImageHeader webp_header(const std::string& path, const std::string& bytes,
 
 }  // namespace
 
+RgbaSamples decode_webp(const std::string& origin, const std::string& bytes) {
+  const ImageHeader header = webp_header(origin, bytes, bytes.size());
+  RgbaSamples samples{header.width, header.height, {}};
+  samples.rgba.resize(std::size_t{4} * header.width * header.height);
+  if (WebPDecodeRGBAInto(data_of(bytes), bytes.size(), samples.rgba.data(), samples.rgba.size(),
+                         4 * header.width) == nullptr) {
+    throw InputError(origin + ": damaged or cut off, expected a WebP image");
+  }
+  return samples;
+}
+
 RgbaImage read_webp(const std::string& path) {
   const InputFile file(path);
-  const std::string bytes = file.text_from(0, file.size_bytes());
-  const ImageHeader header = webp_header(path, bytes, bytes.size());
-  std::vector<std::uint8_t> rgba(std::size_t{4} * header.width * header.height);
-  if (WebPDecodeRGBAInto(data_of(bytes), bytes.size(), rgba.data(), rgba.size(),
-                         4 * header.width) == nullptr) {
-    throw InputError(path + ": damaged or cut off, expected a WebP image");
-  }
-  RgbaImage image(header.width, header.height);
+  const RgbaSamples samples = decode_webp(path, file.text_from(0, file.size_bytes()));
+  RgbaImage image(samples.width, samples.height);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    const std::uint8_t* p = &rgba[4 * i];
+    const std::uint8_t* p = samples.pixel(i);
     const float alpha = p[3] / 255.0f;
     image.pixels[i] = glm::vec4(glm::vec3(p[0], p[1], p[2]) / 255.0f * alpha, alpha);
   }

@@ -208,6 +208,11 @@ std::size_t size_bytes(PlyScalar type) {
   return 8;
 }
 
+bool PlyElement::has(std::string_view property) const {
+  return std::any_of(properties.begin(), properties.end(),
+                     [property](const PlyProperty& one) { return one.name == property; });
+}
+
 bool PlyElement::has_lists() const {
   return std::any_of(properties.begin(), properties.end(),
                      [](const PlyProperty& property) { return property.is_list; });
@@ -219,6 +224,13 @@ std::uint64_t PlyElement::record_bytes() const {
     sum += size_bytes(property.is_list ? property.list_count_type : property.type);
   }
   return sum;
+}
+
+const PlyElement* PlyHeader::element(std::string_view name) const {
+  const auto found =
+      std::find_if(elements.begin(), elements.end(),
+                   [name](const PlyElement& element) { return element.name == name; });
+  return found == elements.end() ? nullptr : &*found;
 }
 
 PlyHeader read_ply_header(const InputFile& file) { return HeaderParser(file).parse(); }

@@ -1,28 +1,16 @@
-// Kinds by names of properties and by comments.
-#include "algorithm/scene/ply_kinds.h"
-
+// Kinds of ply_header.h, by names of properties and by comments.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <optional>
 #include <string_view>
 
 #include "algorithm/files/input_error.h"
+#include "algorithm/scene/ply_header.h"
 #include "algorithm/scene/ply_vertex.h"
 
 namespace sgs {
 namespace {
-
-bool has_element(const PlyHeader& header, std::string_view name) {
-  return std::any_of(header.elements.begin(), header.elements.end(),
-                     [name](const PlyElement& element) { return element.name == name; });
-}
-
-bool has_property(const PlyElement& element, std::string_view name) {
-  return std::any_of(element.properties.begin(), element.properties.end(),
-                     [name](const PlyProperty& property) { return property.name == name; });
-}
 
 bool begins_with(std::string_view text, std::string_view with) {
   return text.substr(0, with.size()) == with;
@@ -57,17 +45,6 @@ constexpr Kind kKinds[] = {
     {"scale_t", false, "Gaussians that move", kExportOneTime},
     {"rot_r_", true, "Gaussians that move", kExportOneTime},
 };
-
-// In the files of the original, where they mean nothing.
-constexpr std::string_view kEmptyProperties[] = {"nx", "ny", "nz"};
-
-bool is_slot(std::string_view name) {
-  if (begins_with(name, "f_rest_")) return true;
-  for (int slot = 0; slot < kRestSlot; ++slot) {
-    if (slot_name(slot) == name) return true;
-  }
-  return false;
-}
 
 // The mode that a comment asks for: "SplatRenderMode: mip" (Brush), "antialiased 1" (Postshot).
 std::string render_mode(const PlyHeader& header) {
@@ -106,15 +83,12 @@ void note_skipped(const char* what, const std::vector<std::string>& names,
 }  // namespace
 
 bool is_compressed_ply(const PlyHeader& header) {
-  const auto vertex =
-      std::find_if(header.elements.begin(), header.elements.end(),
-                   [](const PlyElement& element) { return element.name == "vertex"; });
-  return has_element(header, "chunk") && vertex != header.elements.end() &&
-         has_property(*vertex, "packed_position");
+  const PlyElement* const vertex = header.element("vertex");
+  return header.element("chunk") != nullptr && vertex != nullptr && vertex->has("packed_position");
 }
 
-void refuse_other_kinds(const std::string& path, const PlyHeader& header,
-                        const PlyElement& vertex) {
+void refuse_other_kinds(const std::string& path, const PlyHeader& header) {
+  const PlyElement& vertex = *header.element("vertex");
   for (const Kind& kind : kKinds) {
     for (const PlyProperty& property : vertex.properties) {
       if (kind.is_prefix ? begins_with(property.name, kind.property)
@@ -123,7 +97,7 @@ void refuse_other_kinds(const std::string& path, const PlyHeader& header,
       }
     }
   }
-  const auto has = [&vertex](const char* name) { return has_property(vertex, name); };
+  const auto has = [&vertex](const char* name) { return vertex.has(name); };
   if (has("x") && !has("opacity") && !has("scale_0") && !has("rot_0")) {
     refuse(path, "a cloud of points without opacity, scale and rotation",
            "it is what a training begins with");
@@ -136,25 +110,28 @@ void refuse_other_kinds(const std::string& path, const PlyHeader& header,
   }
 }
 
-bool is_antialiased(const PlyHeader& header) { return render_mode(header) == "mip"; }
-
-std::vector<std::string> notes_on_ply(const PlyHeader& header, const PlyElement& vertex) {
+std::vector<std::string> notes_on_ply(const PlyHeader& header,
+                                      const std::map<std::string, std::set<std::string>>& read) {
   std::vector<std::string> notes, properties, elements;
-  for (const PlyProperty& property : vertex.properties) {
-    const bool is_empty = std::find(std::begin(kEmptyProperties), std::end(kEmptyProperties),
-                                    property.name) != std::end(kEmptyProperties);
-    if (property.name == kFilterProperty) {
-      notes.push_back(fmt::format("{} is baked into scales and opacities", kFilterProperty));
-    } else if (!is_empty && !is_slot(property.name)) {
-      properties.push_back(property.name);
-    }
-  }
+  bool antialiased = render_mode(header) == "mip";
   for (const PlyElement& element : header.elements) {
-    if (element.name != vertex.name) elements.push_back(element.name);
+    const auto of_element = read.find(element.name);
+    if (of_element == read.end()) {
+      elements.push_back(element.name);
+      continue;
+    }
+    for (const PlyProperty& property : element.properties) {
+      if (of_element->second.count(property.name) == 0) {
+        properties.push_back(property.name);
+      } else if (property.name == kFilterProperty) {
+        notes.push_back(fmt::format("{} is baked into scales and opacities", kFilterProperty));
+        antialiased = true;
+      }
+    }
   }
   note_skipped(properties.size() == 1 ? "property is" : "properties are", properties, notes);
   note_skipped(elements.size() == 1 ? "element is" : "elements are", elements, notes);
-  if (is_antialiased(header)) notes.emplace_back(kAntialiasedNote);
+  if (antialiased) notes.emplace_back(kAntialiasedNote);
   return notes;
 }
 

@@ -1,15 +1,16 @@
-// Columns of the three elements, and the numbers in their words.
-#include "algorithm/scene_files/compressed_ply.h"
-
+// Columns of the three elements of a compressed PLY (scene_forms.h), and the numbers in their
+// words.
 #include <fmt/format.h>
 
+#include <map>
 #include <optional>
+#include <set>
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_file.h"
 #include "algorithm/scene/ply_header.h"
-#include "algorithm/scene/ply_kinds.h"
 #include "algorithm/scene_files/decoded_scene.h"
+#include "algorithm/scene_files/scene_forms.h"
 
 namespace sgs {
 namespace {
@@ -29,25 +30,25 @@ class Records {
     bytes_ = file.text_from(offset_bytes, element.count * record_bytes_);
   }
 
-  std::uint64_t count() const { return element_.count; }
-
   struct Column {
     std::uint64_t offset_bytes = 0;
     PlyScalar type = PlyScalar::kFloat32;
   };
 
-  bool has(const std::string& name) const { return find(name, nullptr); }
   // Throws InputError where it is missing or of another type.
-  Column column(const std::string& path, const std::string& name, PlyScalar type) const {
-    Column found;
-    if (!find(name, &found) || found.type != type) {
-      throw InputError(
-          fmt::format("{}: element {}: got no property {} {}, expected it in a "
-                      "compressed PLY",
-                      path, element_.name, type_name(type), name));
+  Column column(const std::string& path, const std::string& name, PlyScalar type) {
+    names_.insert(name);
+    std::uint64_t offset_bytes = 0;
+    for (const PlyProperty& property : element_.properties) {
+      if (property.name == name && property.type == type) return {offset_bytes, type};
+      offset_bytes += size_bytes(property.type);
     }
-    return found;
+    throw InputError(
+        fmt::format("{}: element {}: got no property {} {}, expected it in a "
+                    "compressed PLY",
+                    path, element_.name, type_name(type), name));
   }
+  const std::set<std::string>& names() const { return names_; }  // of the columns
 
   template <class T>
   T at(std::uint64_t record, const Column& column) const {
@@ -56,22 +57,11 @@ class Records {
   }
 
  private:
-  bool find(const std::string& name, Column* column) const {
-    std::uint64_t offset_bytes = 0;
-    for (const PlyProperty& property : element_.properties) {
-      if (property.name == name) {
-        if (column != nullptr) *column = {offset_bytes, property.type};
-        return true;
-      }
-      offset_bytes += size_bytes(property.type);
-    }
-    return false;
-  }
-
   PlyFormat format_;
   const PlyElement& element_;
   std::uint64_t record_bytes_;
   std::string bytes_;
+  std::set<std::string> names_;
 };
 
 double unsigned_part(std::uint32_t word, int shift, int bits) {
@@ -88,24 +78,21 @@ std::array<double, 3> axis_shares(std::uint32_t word) {
 
 void decode_rotation(std::uint32_t word, float* rotation) {
   const double length = 1.0 / (std::sqrt(2.0) * 0.5);
-  const std::uint32_t largest = word >> 30;
-  double squared = 0;
-  int shift = 20;
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    if (k == largest) continue;
-    const double part = (unsigned_part(word, shift, 10) - 0.5) * length;
-    rotation[k] = static_cast<float>(part);
-    squared += part * part;
-    shift -= 10;
-  }
-  rotation[largest] = static_cast<float>(std::sqrt(std::max(0.0, 1 - squared)));
+  int shift = 30;
+  decode_smallest_three(
+      {0, 1, 2, 3}, static_cast<int>(word >> 30),
+      [&] {
+        shift -= 10;
+        return (unsigned_part(word, shift, 10) - 0.5) * length;
+      },
+      rotation);
 }
 
 // Three pairs of columns of the element chunk.
 struct Bounds {
   std::array<Records::Column, 3> low, high;
 
-  Bounds(const std::string& path, const Records& chunks, const std::array<const char*, 3>& names) {
+  Bounds(const std::string& path, Records& chunks, const std::array<const char*, 3>& names) {
     for (std::size_t i = 0; i < 3; ++i) {
       low[i] = chunks.column(path, fmt::format("min_{}", names[i]), PlyScalar::kFloat32);
       high[i] = chunks.column(path, fmt::format("max_{}", names[i]), PlyScalar::kFloat32);
@@ -133,28 +120,18 @@ SceneContents read_compressed_ply(const std::string& path, const SceneReadOption
   if (header.format == PlyFormat::kAscii) {
     throw InputError(fmt::format("{}: got a compressed PLY as text, expected a binary one", path));
   }
-  const PlyElement *chunk = nullptr, *vertex = nullptr, *sh = nullptr;
+  refuse_other_kinds(path, header);
+  const PlyElement& chunk = *header.element("chunk");
+  const PlyElement& vertex = *header.element("vertex");
+  const PlyElement* const sh = header.element("sh");
   std::uint64_t offset_bytes = header.body_offset_bytes;
-  std::array<std::uint64_t, 3> offsets{};
-  std::vector<std::string> notes;
+  std::map<std::string, std::uint64_t> offsets;
   for (const PlyElement& element : header.elements) {
     if (element.has_lists()) {
       throw InputError(
           fmt::format("{}: element {}: got a list, expected scalars only", path, element.name));
     }
-    if (element.name == "chunk") {
-      chunk = &element;
-      offsets[0] = offset_bytes;
-    } else if (element.name == "vertex") {
-      vertex = &element;
-      offsets[1] = offset_bytes;
-    } else if (element.name == "sh") {
-      sh = &element;
-      offsets[2] = offset_bytes;
-    } else {
-      notes.push_back(
-          fmt::format("element {} is skipped, since no picture needs it", element.name));
-    }
+    offsets[element.name] = offset_bytes;
     offset_bytes += element.count * element.record_bytes();  // the header fits the file
   }
   if (offset_bytes != file.size_bytes()) {
@@ -162,19 +139,19 @@ SceneContents read_compressed_ply(const std::string& path, const SceneReadOption
         fmt::format("{}: byte {}: got {} bytes after the last record, expected the end of the file",
                     path, offset_bytes, file.size_bytes() - offset_bytes));
   }
-  const std::uint64_t count = vertex->count;
-  if (chunk->count != (count + kChunkGaussians - 1) / kChunkGaussians ||
+  const std::uint64_t count = vertex.count;
+  if (chunk.count != (count + kChunkGaussians - 1) / kChunkGaussians ||
       (sh != nullptr && sh->count != count)) {
     throw InputError(
         fmt::format("{}: got {} Gaussians, {} chunks and {} sh, expected a chunk for "
                     "{} Gaussians and as many sh",
-                    path, count, chunk->count, sh != nullptr ? sh->count : 0, kChunkGaussians));
+                    path, count, chunk.count, sh != nullptr ? sh->count : 0, kChunkGaussians));
   }
 
-  const Records chunks(file, header.format, *chunk, offsets[0]);
-  const Records vertices(file, header.format, *vertex, offsets[1]);
+  Records chunks(file, header.format, chunk, offsets["chunk"]);
+  Records vertices(file, header.format, vertex, offsets["vertex"]);
   const PlyElement none;
-  const Records coefficients(file, header.format, sh != nullptr ? *sh : none, offsets[2]);
+  Records coefficients(file, header.format, sh != nullptr ? *sh : none, offsets["sh"]);
   const int degree = sh != nullptr ? degree_of(path, sh->properties.size()) : 0;
   std::vector<Records::Column> rest;
   for (int k = 0; k < 3 * rest_coeff_count(degree); ++k) {
@@ -188,7 +165,7 @@ SceneContents read_compressed_ply(const std::string& path, const SceneReadOption
   const Bounds positions(path, chunks, {"x", "y", "z"});
   const Bounds scales(path, chunks, {"scale_x", "scale_y", "scale_z"});
   std::optional<Bounds> colours;
-  if (chunks.has("min_r")) colours.emplace(path, chunks, std::array<const char*, 3>{"r", "g", "b"});
+  if (chunk.has("min_r")) colours.emplace(path, chunks, std::array<const char*, 3>{"r", "g", "b"});
 
   SceneContents contents =
       decoded_scene(path, count, degree, options, [&](std::uint64_t index, float* slots) {
@@ -212,8 +189,9 @@ SceneContents read_compressed_ply(const std::string& path, const SceneReadOption
           slots[kRestSlot + k] = static_cast<float>((share - 0.5) * 8);
         }
       });
-  if (is_antialiased(header)) notes.emplace_back(kAntialiasedNote);
-  contents.notes = std::move(notes);
+  contents.notes = notes_on_ply(
+      header,
+      {{"chunk", chunks.names()}, {"vertex", vertices.names()}, {"sh", coefficients.names()}});
   return contents;
 }
 

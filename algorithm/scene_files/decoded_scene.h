@@ -77,4 +77,19 @@ inline float logit_of_byte(std::uint8_t opacity) {
   return static_cast<float>(std::log(kept / (1 - kept)));
 }
 
+// A quaternion of which all components but `largest` are stored: next() gives them in `order`, as
+// numbers of w x y z, and the largest makes the length 1.
+template <class Next>
+void decode_smallest_three(const std::array<int, 4>& order, int largest, const Next& next,
+                           float* rotation) {
+  double squared = 0;
+  for (const int k : order) {
+    if (k == largest) continue;
+    const double part = next();
+    rotation[k] = static_cast<float>(part);
+    squared += part * part;
+  }
+  rotation[largest] = static_cast<float>(std::sqrt(std::max(0.0, 1 - squared)));
+}
+
 }  // namespace sgs

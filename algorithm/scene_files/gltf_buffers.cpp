@@ -4,13 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_file.h"
 #include "algorithm/files/input_json.h"
 #include "algorithm/scene_files/decoded_scene.h"
-#include "algorithm/scene_files/scene_parts.h"
+#include "algorithm/scene_files/stored_bytes.h"
 
 namespace sgs {
 namespace {
@@ -83,7 +84,7 @@ double GltfAccessor::at(std::uint64_t index, int component) const {
   }
 }
 
-GltfBuffers::GltfBuffers(const std::string& path) : path_(path) {
+GltfBuffers::GltfBuffers(const std::string& path) : path_(path), files_{path} {
   const InputFile file(path);
   file_ = file.text_from(0, file.size_bytes());
   if (file_.compare(0, 4, "glTF") == 0) {
@@ -138,6 +139,7 @@ std::string_view GltfBuffers::buffer_bytes(std::uint64_t index) {
       others_.push_back(from_base64(buffer.origin(), std::string_view(uri).substr(base64 + 8)));
     } else {
       others_.push_back(open_folder_of(path_)->bytes(uri));
+      files_.push_back((std::filesystem::path(path_).parent_path() / uri).string());
     }
     bytes = others_.back();
   }

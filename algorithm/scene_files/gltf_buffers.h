@@ -35,6 +35,7 @@ class GltfBuffers {
   // Member number `index` of the list `name` of the file. Throws InputError where there is none.
   JsonFields item(const std::string& name, std::uint64_t index) const;
   std::uint64_t count(const std::string& name) const;
+  const std::vector<std::string>& files() const { return files_; }  // that were opened
   const JsonFields& root() const { return *root_; }
 
   // Both as long as this lives. Throw InputError for what does not lie within its buffer, and for
@@ -47,6 +48,7 @@ class GltfBuffers {
   std::string_view buffer_bytes(std::uint64_t index);
 
   std::string path_;
+  std::vector<std::string> files_;
   std::string file_;
   std::string_view binary_;  // the binary chunk of a .glb
   nlohmann::ordered_json json_;

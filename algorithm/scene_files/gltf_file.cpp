@@ -1,18 +1,16 @@
-// Nodes, primitives and attributes of gltf_file.h.
-#include "algorithm/scene_files/gltf_file.h"
-
+// Nodes, primitives and attributes of glTF (scene_forms.h).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_json.h"
+#include "algorithm/scene_files/assembled_scene.h"
 #include "algorithm/scene_files/decoded_scene.h"
 #include "algorithm/scene_files/gltf_buffers.h"
-#include "algorithm/scene_files/joined_scenes.h"
-#include "algorithm/scene_files/placement.h"
-#include "algorithm/scene_files/spz_file.h"
+#include "algorithm/scene_files/scene_forms.h"
 
 namespace sgs {
 namespace {
@@ -43,20 +41,6 @@ glm::dmat4 local_matrix(const JsonFields& node) {
     matrix = glm::scale(matrix, glm::dvec3(s[0], s[1], s[2]));
   }
   return matrix;
-}
-
-// What an INRIA .ply would hold for the Gaussian `index` of a cloud.
-void fill_slots(const GaussianCloud& cloud, std::uint64_t index, float* slots) {
-  const int coeffs = sh_coeff_count(cloud.sh_degree);
-  const glm::vec3* sh = &cloud.sh_coeffs[index * static_cast<std::uint64_t>(coeffs)];
-  for (int i = 0; i < 3; ++i) {
-    slots[kMeanSlot + i] = cloud.means[index][i];
-    slots[kDcSlot + i] = sh[0][i];
-    slots[kScaleSlot + i] = cloud.log_scales[index][i];
-    for (int k = 1; k < coeffs; ++k) slots[rest_slot(cloud.sh_degree, i, k - 1)] = sh[k][i];
-  }
-  std::copy_n(cloud.quats[index].begin(), 4, slots + kRotationSlot);
-  slots[kOpacitySlot] = cloud.opacity_logits[index];
 }
 
 // The attributes of a primitive that is not compressed.
@@ -116,6 +100,17 @@ void check_kind(const JsonFields& splats) {
   check("projection", "perspective");
 }
 
+// What a file may ask of its reader. Quantised accessors are read as all others.
+void check_required(const JsonFields& root) {
+  if (!root.has("extensionsRequired")) return;
+  const std::vector<std::string> known = {kExtension, kSpzExtension, "KHR_mesh_quantization"};
+  for (const std::string& name : root.texts("extensionsRequired")) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    throw InputError(fmt::format("{}: extensionsRequired: got {}, expected none but {}",
+                                 root.origin(), name, join(known)));
+  }
+}
+
 class GltfReader {
  public:
   GltfReader(const std::string& path, const SceneReadOptions& options)
@@ -128,9 +123,13 @@ class GltfReader {
     if (buffers_.count("scenes") == 0) {
       throw InputError(fmt::format("{}: got no scene, expected one", path_));
     }
+    check_required(buffers_.root());
     const JsonFields scene = buffers_.item("scenes", buffers_.root().whole_or("scene", 0));
-    if (scene.has("nodes")) {
-      for (const Json& node : scene.list("nodes")) add_node(index_of(scene, node), axes);
+    queue(scene, "nodes", axes);
+    while (!queued_.empty()) {
+      const auto [index, parent] = queued_.back();
+      queued_.pop_back();
+      add_node(index, parent);
     }
     if (primitives_ == 0) {
       throw InputError(fmt::format("{}: got no primitive with {}, expected Gaussians{}", path_,
@@ -144,9 +143,14 @@ class GltfReader {
   }
 
  private:
-  static std::uint64_t index_of(const JsonFields& owner, const Json& index) {
-    if (!index.is_number_unsigned()) owner.refuse("nodes", "numbers of nodes");
-    return index.get<std::uint64_t>();
+  // The nodes that a member names, the first to be taken next.
+  void queue(const JsonFields& owner, const char* member, const glm::dmat4& parent) {
+    if (!owner.has(member)) return;
+    const Json& list = owner.list(member);
+    for (auto node = list.rbegin(); node != list.rend(); ++node) {
+      if (!node->is_number_unsigned()) owner.refuse(member, "numbers of nodes");
+      queued_.emplace_back(node->get<std::uint64_t>(), parent);
+    }
   }
 
   void add_node(std::uint64_t index, const glm::dmat4& parent) {
@@ -157,11 +161,7 @@ class GltfReader {
     seen_[index] = true;
     const glm::dmat4 matrix = parent * local_matrix(node);
     if (node.has("mesh")) add_mesh(node, matrix);
-    if (!node.has("children")) return;
-    for (const Json& child : node.list("children")) {
-      if (!child.is_number_unsigned()) node.refuse("children", "numbers of nodes");
-      add_node(child.get<std::uint64_t>(), matrix);
-    }
+    queue(node, "children", matrix);
   }
 
   void add_mesh(const JsonFields& node, const glm::dmat4& matrix) {
@@ -204,21 +204,19 @@ class GltfReader {
     }
     const std::string_view spz =
         buffers_.view(compression.object(kSpzExtension).whole("bufferView"));
-    const SceneContents raw = read_spz_bytes(origin, spz, options_);
-    SceneContents moved = decoded_scene(origin, raw.cloud.size(), raw.cloud.sh_degree, options_,
-                                        [&](std::uint64_t index, float* slots) {
-                                          fill_slots(raw.cloud, index, slots);
-                                          placement.apply(raw.cloud.sh_degree, slots);
-                                        });
-    moved.dropped_invalid += raw.dropped_invalid;
-    moved.notes = raw.notes;
-    return moved;
+    SceneContents stored = read_spz_bytes(origin, spz, options_);
+    if (!stored.axes.empty()) {
+      throw InputError(fmt::format("{}: got an SPZ that states the axes {}, expected those of glTF",
+                                   origin, stored.axes));
+    }
+    return placed(origin, std::move(stored), placement, options_);
   }
 
   const std::string& path_;
   const SceneReadOptions& options_;
   const GltfBuffers buffers_;
-  std::vector<bool> seen_;  // of the nodes
+  std::vector<bool> seen_;                                    // of the nodes
+  std::vector<std::pair<std::uint64_t, glm::dmat4>> queued_;  // with their parents' matrices
   SceneContents contents_;
   int primitives_ = 0, others_ = 0;
 };
@@ -227,6 +225,11 @@ class GltfReader {
 
 SceneContents read_gltf(const std::string& path, const SceneReadOptions& options) {
   return GltfReader(path, options).read();
+}
+
+std::vector<std::string> files_of_gltf(const std::string& path,
+                                       const SceneReadOptions& /*options*/) {
+  return GltfBuffers(path).files();
 }
 
 }  // namespace sgs

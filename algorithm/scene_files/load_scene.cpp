@@ -5,22 +5,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_file.h"
 #include "algorithm/scene/ply_header.h"
-#include "algorithm/scene/ply_kinds.h"
 #include "algorithm/scene/ply_reader.h"
-#include "algorithm/scene_files/compressed_ply.h"
-#include "algorithm/scene_files/gltf_file.h"
-#include "algorithm/scene_files/ksplat_file.h"
-#include "algorithm/scene_files/sog_files.h"
-#include "algorithm/scene_files/splat_file.h"
-#include "algorithm/scene_files/spz_file.h"
+#include "algorithm/scene_files/assembled_scene.h"
+#include "algorithm/scene_files/scene_forms.h"
 
 namespace sgs {
 namespace {
@@ -40,9 +35,7 @@ struct Place {
 
 Place place_of(const std::string& path) {
   constexpr std::uint64_t kStartBytes = 4096;
-  Place place{path, fs::path(path).extension().string(), {}};
-  std::transform(place.extension.begin(), place.extension.end(), place.extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  Place place{path, extension_of(path), {}};
   std::error_code unknown;
   if (fs::is_regular_file(path, unknown)) place.start = InputFile(path).text_from(0, kStartBytes);
   return place;
@@ -62,35 +55,38 @@ struct Form {
   const char* endings;
   bool (*recognises)(const Place& place);
   SceneContents (*read)(const std::string& path, const SceneReadOptions& options);
-  bool has_levels;
+  bool has_levels = false;
+  // Those that it opens, where that may be several.
+  std::vector<std::string> (*files)(const std::string& path,
+                                    const SceneReadOptions& options) = nullptr;
 };
 
 constexpr Form kForms[] = {
-    {"compressed PLY", ".compressed.ply", is_compressed, read_compressed_ply, false},
-    {"PLY", ".ply", is_ply, read_ply, false},
+    {"compressed PLY", ".compressed.ply", is_compressed, read_compressed_ply},
+    {"PLY", ".ply", is_ply, read_ply},
     {"SPZ", ".spz",
      [](const Place& place) {
        return place.begins_with("NGSP") || place.begins_with("\x1f\x8b") ||
               place.extension == ".spz";
      },
-     read_spz, false},
+     read_spz},
     {"glTF", ".glb, .gltf",
      [](const Place& place) {
        return place.begins_with("glTF") || place.extension == ".glb" || place.extension == ".gltf";
      },
-     read_gltf, false},
+     read_gltf, false, files_of_gltf},
     {"streamed SOG", "lod-meta.json",
-     [](const Place& place) { return is_streamed_sog(place.path); }, read_streamed_sog, true},
+     [](const Place& place) { return is_streamed_sog(place.path); }, read_streamed_sog, true,
+     files_of_streamed_sog},
     {"SOG", ".sog, meta.json",
      [](const Place& place) {
        return place.begins_with("PK\x03\x04") || place.extension == ".sog" ||
               is_sog_folder(place.path);
      },
-     read_sog, false},
+     read_sog, false, files_of_sog},
     {"ksplat", ".ksplat", [](const Place& place) { return place.extension == ".ksplat"; },
-     read_ksplat, false},
-    {"splat", ".splat", [](const Place& place) { return place.extension == ".splat"; }, read_splat,
-     false},
+     read_ksplat},
+    {"splat", ".splat", [](const Place& place) { return place.extension == ".splat"; }, read_splat},
 };
 
 const Form* form_of(const Place& place) {
@@ -144,22 +140,31 @@ Scene load_scene(const std::string& path, const SceneReadOptions& options) {
                     path, *options.level, form->name, kStreamedSogMeta));
   }
   SceneContents read = form->read(path, options);
-  return {scene_name(path), std::move(read.cloud), {}, read.dropped_invalid,
-          form->name,       std::move(read.notes)};
+  const std::string axes = options.axes.empty() ? read.axes : options.axes;
+  const bool turns = !axes.empty() && axes != "rdf";
+  if (turns) {
+    const std::optional<Placement> placement = Placement::from_axes(axes);
+    if (!placement) {
+      throw InputError(
+          fmt::format("{}: got the axes {}, expected r or l, d or u and f or b in any "
+                      "order that does not mirror, as rub",
+                      path, axes));
+    }
+    read = placed(path, std::move(read), *placement, options);
+    read.notes.push_back(fmt::format("turned from axes {} to right, down, forward", axes));
+  }
+  Scene scene{scene_name(path), std::move(read.cloud), {}, read.dropped_invalid, form->name};
+  if (turns) scene.axes = axes;
+  scene.notes = std::move(read.notes);
+  return scene;
 }
 
-std::vector<std::string> files_of_scene(const std::string& path) {
-  const fs::path place(path);
-  std::error_code unknown;
-  const std::string name = place.filename().string();
-  const bool is_meta = name == kSogMeta || name == kStreamedSogMeta || place.extension() == ".gltf";
-  const fs::path folder = is_meta ? fs::absolute(place).parent_path() : place;
-  if (!fs::is_directory(folder, unknown)) return {path};
-  std::vector<std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder, unknown)) {
-    if (entry.is_regular_file(unknown)) files.push_back(entry.path().string());
-  }
+std::vector<std::string> files_of_scene(const std::string& path, const SceneReadOptions& options) {
+  const Form* const form = form_of(place_of(path));
+  if (form == nullptr || form->files == nullptr) return {path};
+  std::vector<std::string> files = form->files(path, options);
   std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
   return files;
 }
 

@@ -17,6 +17,7 @@ struct Scene {
   std::vector<Camera> cameras;          // where the source brings some; a file does not
   std::uint64_t dropped_invalid = 0;    // Gaussians left out, see SceneReadOptions
   std::string form = {};                // of the file, in words
+  std::string axes = {};                // that it was turned from; empty where it was not
   std::vector<std::string> notes = {};  // see SceneContents
 };
 
@@ -34,7 +35,9 @@ Scene load_scene(const std::string& path, const SceneReadOptions& options = {});
 // How their names end: ".ply, .spz, ...".
 std::string scene_endings();
 
-// The files that the scene at `path` is read from, in the order of their paths.
-std::vector<std::string> files_of_scene(const std::string& path);
+// The files that load_scene() opens for it, in the order of their paths. Throws InputError where
+// they cannot be told; what is no scene is given back as it is.
+std::vector<std::string> files_of_scene(const std::string& path,
+                                        const SceneReadOptions& options = {});
 
 }  // namespace sgs

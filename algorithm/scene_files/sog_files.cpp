@@ -1,8 +1,7 @@
-// meta.json, pictures and numbers of sog_files.h.
-#include "algorithm/scene_files/sog_files.h"
-
+// meta.json, pictures and numbers of SOG (scene_forms.h).
 #include <fmt/format.h>
 
+#include <atomic>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -11,12 +10,13 @@
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_file.h"
 #include "algorithm/files/input_json.h"
-#include "algorithm/scene/ply_kinds.h"
+#include "algorithm/image/image_formats.h"
+#include "algorithm/scene/ply_header.h"
+#include "algorithm/scene_files/assembled_scene.h"
 #include "algorithm/scene_files/decoded_scene.h"
-#include "algorithm/scene_files/joined_scenes.h"
 #include "algorithm/scene_files/json_fields.h"
-#include "algorithm/scene_files/scene_parts.h"
-#include "algorithm/scene_files/webp_texture.h"
+#include "algorithm/scene_files/scene_forms.h"
+#include "algorithm/scene_files/stored_bytes.h"
 
 namespace sgs {
 namespace {
@@ -27,10 +27,11 @@ using Codebook = std::array<float, 256>;
 
 constexpr std::uint64_t kPaletteColumns = 64;  // entries a row of the centroids' picture
 
-Codebook codebook_of(const JsonFields& fields, float missing) {
+// What is beyond it is no number, which decoded_scene refuses.
+Codebook codebook_of(const JsonFields& fields) {
   const std::vector<double> values = fields.numbers("codebook");
   Codebook book;
-  book.fill(missing);
+  book.fill(std::numeric_limits<float>::quiet_NaN());
   if (values.size() > book.size()) fields.refuse("codebook", "at most 256 numbers");
   std::transform(values.begin(), values.end(), book.begin(),
                  [](double value) { return static_cast<float>(value); });
@@ -43,14 +44,24 @@ std::string file_name(const JsonFields& fields, std::size_t index) {
   return names[index];
 }
 
+// A picture whose pixels are numbers, at least `pixels` of them.
+RgbaSamples read_texture(const SceneParts& parts, const std::string& name, std::uint64_t pixels) {
+  RgbaSamples texture = decode_webp(parts.origin(name), parts.bytes(name));
+  if (texture.rgba.size() / 4 < pixels) {
+    throw InputError(fmt::format("{}: got {}x{} px, expected at least {} px", parts.origin(name),
+                                 texture.width, texture.height, pixels));
+  }
+  return texture;
+}
+
 // Coordinates: a share of 65535 between two ends of sign(x) ln(|x| + 1).
 struct Centres {
-  RgbaTexture low, high;
+  RgbaSamples low, high;
   std::array<double, 3> least, span;
 
   Centres(const SceneParts& parts, const JsonFields& fields, std::uint64_t count)
-      : low(read_webp(parts, file_name(fields, 0), count)),
-        high(read_webp(parts, file_name(fields, 1), count)) {
+      : low(read_texture(parts, file_name(fields, 0), count)),
+        high(read_texture(parts, file_name(fields, 1), count)) {
     const std::vector<double> mins = fields.numbers("mins", 3), maxs = fields.numbers("maxs", 3);
     for (std::size_t i = 0; i < 3; ++i) {
       least[i] = mins[i];
@@ -65,21 +76,17 @@ struct Centres {
   }
 };
 
-void decode_rotation(const std::uint8_t* pixel, float* rotation) {
+// False where the pixel holds none: the Gaussian is not turned.
+bool decode_rotation(const std::uint8_t* pixel, float* rotation) {
   constexpr int kFirstTag = 252;  // of a largest component w; then x, y, z
   const int largest = pixel[3] - kFirstTag;
   if (largest < 0) {
     std::copy_n(std::array<float, 4>{1, 0, 0, 0}.begin(), 4, rotation);
-    return;
+    return false;
   }
-  double squared = 0;
-  for (int k = 0, from = 0; k < 4; ++k) {
-    if (k == largest) continue;
-    const double part = (pixel[from++] / 255.0 * 2 - 1) / std::sqrt(2.0);
-    rotation[k] = static_cast<float>(part);
-    squared += part * part;
-  }
-  rotation[largest] = static_cast<float>(std::sqrt(std::max(0.0, 1 - squared)));
+  const auto next = [&] { return (*pixel++ / 255.0 * 2 - 1) / std::sqrt(2.0); };
+  decode_smallest_three({0, 1, 2, 3}, largest, next, rotation);
+  return true;
 }
 
 // SH coefficients: a label for each Gaussian, a palette entry for each label, an index of the
@@ -87,40 +94,42 @@ void decode_rotation(const std::uint8_t* pixel, float* rotation) {
 struct Palette {
   int degree = 0;
   std::uint64_t count = 0;
-  RgbaTexture entries, labels;
+  RgbaSamples entries, labels;
   Codebook codebook;
 
   Palette(const SceneParts& parts, const JsonFields& fields, std::uint64_t gaussians) {
     const std::uint64_t bands = fields.whole("bands");
     if (bands < 1 || bands > 3) fields.refuse("bands", "1 to 3");
     degree = static_cast<int>(bands);
-    codebook = codebook_of(fields, 0);
+    codebook = codebook_of(fields);
     count = fields.whole("count");
     const auto coeffs = static_cast<std::uint64_t>(rest_coeff_count(degree));
     const std::uint64_t rows = (count + kPaletteColumns - 1) / kPaletteColumns;
-    entries = read_webp(parts, file_name(fields, 0), kPaletteColumns * coeffs * rows);
-    if (entries.width != kPaletteColumns * coeffs) {
+    entries = read_texture(parts, file_name(fields, 0), kPaletteColumns * coeffs * rows);
+    if (static_cast<std::uint64_t>(entries.width) != kPaletteColumns * coeffs) {
       throw InputError(fmt::format("{}: {}: got {} px a row, expected {} for {} bands",
                                    fields.origin(), file_name(fields, 0), entries.width,
                                    kPaletteColumns * coeffs, bands));
     }
-    labels = read_webp(parts, file_name(fields, 1), gaussians);
+    labels = read_texture(parts, file_name(fields, 1), gaussians);
   }
-  void fill(std::uint64_t index, float* slots) const {
-    const int coeffs = rest_coeff_count(degree);
+  // False where the label is beyond the palette: all coefficients are 0.
+  bool fill(std::uint64_t index, float* slots) const {
+    const auto coeffs = static_cast<std::uint64_t>(rest_coeff_count(degree));
     const std::uint8_t* pixel = labels.pixel(index);
     const std::uint64_t label = pixel[0] | pixel[1] << 8;
-    for (int k = 0; k < coeffs; ++k) {
-      const std::uint8_t* entry =
-          label < count
-              ? entries.pixel(label / kPaletteColumns * entries.width +
-                              label % kPaletteColumns * static_cast<std::uint64_t>(coeffs) +
-                              static_cast<std::uint64_t>(k))
-              : nullptr;
+    if (label >= count) {
+      std::fill_n(slots + kRestSlot, 3 * coeffs, 0.0F);
+      return false;
+    }
+    const std::uint64_t row = label / kPaletteColumns, column = label % kPaletteColumns;
+    for (std::uint64_t k = 0; k < coeffs; ++k) {
+      const std::uint8_t* entry = entries.pixel((row * kPaletteColumns + column) * coeffs + k);
       for (int channel = 0; channel < 3; ++channel) {
-        slots[rest_slot(degree, channel, k)] = entry != nullptr ? codebook[entry[channel]] : 0;
+        slots[rest_slot(degree, channel, static_cast<int>(k))] = codebook[entry[channel]];
       }
     }
+    return true;
   }
 };
 
@@ -141,15 +150,15 @@ SceneContents read_parts(const SceneParts& parts, const std::string& meta_name,
   const std::string model = meta.has("model") ? meta.text("model") : "default";
   if (model == "2dgs") meta.refuse("model", "3D Gaussians");
   const Centres centres(parts, meta.object("means"), count);
-  const RgbaTexture rotations = read_webp(parts, file_name(meta.object("quats"), 0), count);
-  const RgbaTexture scales = read_webp(parts, file_name(meta.object("scales"), 0), count);
-  const RgbaTexture colours = read_webp(parts, file_name(meta.object("sh0"), 0), count);
-  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-  const Codebook scale_book = codebook_of(meta.object("scales"), kNone);
-  const Codebook colour_book = codebook_of(meta.object("sh0"), kNone);
+  const RgbaSamples rotations = read_texture(parts, file_name(meta.object("quats"), 0), count);
+  const RgbaSamples scales = read_texture(parts, file_name(meta.object("scales"), 0), count);
+  const RgbaSamples colours = read_texture(parts, file_name(meta.object("sh0"), 0), count);
+  const Codebook scale_book = codebook_of(meta.object("scales"));
+  const Codebook colour_book = codebook_of(meta.object("sh0"));
   std::optional<Palette> palette;
   if (meta.has("shN")) palette.emplace(parts, meta.object("shN"), count);
 
+  std::atomic<std::uint64_t> unturned{0}, unlabelled{0};
   SceneContents contents =
       decoded_scene(origin, count, palette ? palette->degree : 0, options,
                     [&](std::uint64_t index, float* slots) {
@@ -159,12 +168,28 @@ SceneContents read_parts(const SceneParts& parts, const std::string& meta_name,
                         slots[kDcSlot + i] = colour_book[colours.pixel(index)[i]];
                       }
                       slots[kOpacitySlot] = logit_of_byte(colours.pixel(index)[3]);
-                      decode_rotation(rotations.pixel(index), slots + kRotationSlot);
-                      if (palette) palette->fill(index, slots);
+                      if (!decode_rotation(rotations.pixel(index), slots + kRotationSlot)) {
+                        ++unturned;
+                      }
+                      if (palette && !palette->fill(index, slots)) ++unlabelled;
                     });
+  if (unturned > 0) {
+    contents.notes.push_back(
+        fmt::format("{} Gaussians have no rotation and are not turned", unturned.load()));
+  }
+  if (unlabelled > 0) {
+    contents.notes.push_back(
+        fmt::format("{} Gaussians have labels beyond the palette of {} and look alike from all "
+                    "sides",
+                    unlabelled.load(), palette->count));
+  }
   if (model == "antialiased") contents.notes.emplace_back(kAntialiasedNote);
   return contents;
 }
+
+// Of each member of meta.json the pictures that read_parts() reads.
+constexpr std::pair<const char*, std::size_t> kPictures[] = {
+    {"means", 2}, {"quats", 1}, {"scales", 1}, {"sh0", 1}, {"shN", 2}};
 
 // `name`, in the folder `path` or as it is itself.
 std::string named_file(const std::string& path, const char* name) {
@@ -175,25 +200,54 @@ std::string named_file(const std::string& path, const char* name) {
   return fs::is_directory(place, unknown) && fs::exists(within, unknown) ? within.string() : "";
 }
 
-// Of each file of a level, by its number, the Gaussians that the tree says it has.
-using LevelFiles = std::map<std::uint64_t, std::uint64_t>;
+// What lod-meta.json says of the level that `options` name.
+struct Level {
+  std::string meta_path;
+  std::vector<std::pair<std::string, std::uint64_t>> parts;  // places and how many Gaussians
+  std::vector<std::string> notes;
 
-void add_files(const JsonFields& node, const std::string& level, std::uint64_t file_count,
-               LevelFiles& files) {
-  if (node.has("lods")) {
-    const JsonFields lods = node.object("lods");
-    if (lods.has(level)) {
+  Level(const std::string& path, const SceneReadOptions& options)
+      : meta_path(named_file(path, kStreamedSogMeta)) {
+    const Json json = read_json(meta_path);
+    const JsonFields meta(meta_path, json);
+    if (meta.whole_or("version", 1) != 1) meta.refuse("version", "1");
+    const std::uint64_t levels = meta.whole("lodLevels");
+    const std::uint32_t level = options.level.value_or(0);
+    if (level >= levels) {
+      throw InputError(fmt::format("{}: got level {}, expected one of its {} levels, from 0",
+                                   meta_path, level, levels));
+    }
+    const std::vector<std::string> names = meta.texts("filenames");
+    std::map<std::uint64_t, std::uint64_t> counts;  // of Gaussians, by the number of the file
+    add_counts(meta.object("tree"), std::to_string(level), names.size(), counts);
+    const std::unique_ptr<SceneParts> folder = open_folder_of(meta_path);
+    for (const auto& [number, count] : counts) {
+      folder->check_name(names[number]);
+      parts.emplace_back((fs::path(meta_path).parent_path() / names[number]).string(), count);
+    }
+    notes.push_back(fmt::format("level {} of 0 to {}, 0 the finest", level, levels - 1));
+    if (meta.has("environment")) {
+      notes.push_back(fmt::format("its environment {} is of no level and is not drawn",
+                                  shown(meta.at("environment"))));
+    }
+  }
+
+ private:
+  static void add_counts(const JsonFields& node, const std::string& level, std::uint64_t file_count,
+                         std::map<std::uint64_t, std::uint64_t>& counts) {
+    if (node.has("lods") && node.object("lods").has(level)) {
+      const JsonFields lods = node.object("lods");
       const JsonFields part = lods.object(level);
       if (part.whole("file") >= file_count) part.refuse("file", "one of filenames");
       part.whole("offset");
-      files[part.whole("file")] += part.whole("count");
+      counts[part.whole("file")] += part.whole("count");
+    }
+    if (!node.has("children")) return;
+    for (const Json& child : node.list("children")) {
+      add_counts(JsonFields(node.origin(), child), level, file_count, counts);
     }
   }
-  if (!node.has("children")) return;
-  for (const Json& child : node.list("children")) {
-    add_files(JsonFields(node.origin(), child), level, file_count, files);
-  }
-}
+};
 
 }  // namespace
 
@@ -215,40 +269,47 @@ SceneContents read_sog(const std::string& path, const SceneReadOptions& options)
   return read_parts(meta.empty() ? *open_zip(path) : *open_folder_of(meta), kSogMeta, options);
 }
 
-SceneContents read_streamed_sog(const std::string& path, const SceneReadOptions& options) {
-  const std::string meta_path = named_file(path, kStreamedSogMeta);
-  const std::unique_ptr<SceneParts> parts = open_folder_of(meta_path);
+std::vector<std::string> files_of_sog(const std::string& path,
+                                      const SceneReadOptions& /*options*/) {
+  const std::string meta_path = named_file(path, kSogMeta);
+  if (meta_path.empty()) return {path};
   const Json json = read_json(meta_path);
   const JsonFields meta(meta_path, json);
-  if (meta.whole_or("version", 1) != 1) meta.refuse("version", "1");
-  const std::uint64_t levels = meta.whole("lodLevels");
-  const std::uint32_t level = options.level.value_or(0);
-  if (level >= levels) {
-    throw InputError(fmt::format("{}: got level {}, expected one of its {} levels, from 0",
-                                 meta_path, level, levels));
-  }
-  const std::vector<std::string> names = meta.texts("filenames");
-  LevelFiles files;
-  add_files(meta.object("tree"), std::to_string(level), names.size(), files);
-
-  SceneContents all;
-  const SceneReadOptions each{options.drop_invalid};
-  for (const auto& [number, count] : files) {
-    const std::string& name = names[number];
-    const std::string origin = parts->origin(name);
-    parts->check_name(name);
-    SceneContents part = read_sog((fs::path(meta_path).parent_path() / name).string(), each);
-    if (part.cloud.size() + part.dropped_invalid != count) {
-      throw InputError(fmt::format("{}: got {} Gaussians, expected {} as {} says", origin,
-                                   part.cloud.size() + part.dropped_invalid, count, meta_path));
+  std::vector<std::string> files = {meta_path};
+  for (const auto& [member, count] : kPictures) {
+    if (!meta.has(member)) continue;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::string name = file_name(meta.object(member), i);
+      files.push_back((fs::path(meta_path).parent_path() / name).string());
     }
-    append_scene(origin, std::move(part), all);
   }
-  all.notes.push_back(fmt::format("level {} of 0 to {}, 0 the finest", level, levels - 1));
-  if (meta.has("environment")) {
-    all.notes.push_back(fmt::format("its environment {} is of no level and is not drawn",
-                                    shown(meta.at("environment"))));
+  return files;
+}
+
+std::vector<std::string> files_of_streamed_sog(const std::string& path,
+                                               const SceneReadOptions& options) {
+  const Level level(path, options);
+  std::vector<std::string> files = {level.meta_path};
+  for (const auto& [place, count] : level.parts) {
+    const std::vector<std::string> of_part = files_of_sog(place, options);
+    files.insert(files.end(), of_part.begin(), of_part.end());
   }
+  return files;
+}
+
+SceneContents read_streamed_sog(const std::string& path, const SceneReadOptions& options) {
+  const Level level(path, options);
+  SceneContents all;
+  for (const auto& [place, count] : level.parts) {
+    SceneContents part = read_sog(place, options);
+    if (part.cloud.size() + part.dropped_invalid != count) {
+      throw InputError(fmt::format("{}: got {} Gaussians, expected {} as {} says", place,
+                                   part.cloud.size() + part.dropped_invalid, count,
+                                   level.meta_path));
+    }
+    append_scene(place, std::move(part), all);
+  }
+  all.notes.insert(all.notes.end(), level.notes.begin(), level.notes.end());
   return all;
 }
 

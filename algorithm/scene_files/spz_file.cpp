@@ -1,13 +1,14 @@
-// SpzHeader, streams and numbers of spz_file.h.
-#include "algorithm/scene_files/spz_file.h"
-
+// Header, extensions, streams and numbers of .spz (scene_forms.h).
 #include <fmt/format.h>
+
+#include <numeric>
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_file.h"
-#include "algorithm/scene/ply_kinds.h"
-#include "algorithm/scene_files/compressed_bytes.h"
+#include "algorithm/scene/ply_header.h"
 #include "algorithm/scene_files/decoded_scene.h"
+#include "algorithm/scene_files/scene_forms.h"
+#include "algorithm/scene_files/stored_bytes.h"
 
 namespace sgs {
 namespace {
@@ -15,13 +16,14 @@ namespace {
 constexpr std::uint64_t kSpzHeaderBytes = 16, kZstdHeaderBytes = 32, kTocEntryBytes = 16;
 constexpr std::uint32_t kMagic = 0x5053474e;  // NGSP
 constexpr std::uint32_t kZstdVersion = 4;     // the first with zstd streams
-constexpr std::uint8_t kAntialiasedFlag = 1;
+constexpr std::uint8_t kAntialiasedFlag = 1, kExtensionsFlag = 2;
+constexpr std::uint64_t kMostExtensionBytes = 1 << 16;  // of all together
 constexpr int kMostFractionalBits = 24;
 
 struct SpzHeader {
   std::uint32_t version = 0, count = 0;
   int degree = 0, fractional_bits = 0;
-  bool antialiased = false;
+  bool antialiased = false, has_extensions = false;
 };
 
 // Throws InputError for what is none.
@@ -41,9 +43,15 @@ SpzHeader header_of(const std::string& origin, std::string_view bytes) {
   header.count = load_number<std::uint32_t>(&bytes[8]);
   header.degree = byte_at(&bytes[12]);
   header.fractional_bits = byte_at(&bytes[13]);
-  header.antialiased = (byte_at(&bytes[14]) & kAntialiasedFlag) != 0;
+  const std::uint8_t flags = byte_at(&bytes[14]);
+  header.antialiased = (flags & kAntialiasedFlag) != 0;
+  header.has_extensions = (flags & kExtensionsFlag) != 0;
   if (header.version < 1 || header.version > kZstdVersion) {
     refuse(fmt::format("version {} of .spz", header.version), "1 to 4");
+  }
+  if ((flags & ~(kAntialiasedFlag | kExtensionsFlag)) != 0) {
+    refuse(fmt::format("the flags {:#04x}", flags),
+           "0x01 for anti-aliased and 0x02 for extensions alone: others change what is drawn");
   }
   if (header.degree > 3) {
     refuse(fmt::format("SH degree {}", header.degree),
@@ -67,15 +75,14 @@ struct Strides {
               header.version < 3 ? 3U : 4U,
               3 * static_cast<std::uint64_t>(rest_coeff_count(header.degree))} {}
   std::uint64_t sum() const {
-    std::uint64_t all = 0;
-    for (const std::uint64_t one : bytes) all += one;
-    return all;
+    return std::accumulate(bytes.begin(), bytes.end(), std::uint64_t{0});
   }
 };
 
-// The streams, each of `count` times its stride.
+// The streams, each of `count` times its stride, and the records of extensions.
 struct Streams {
   std::array<std::string, 6> bytes;
+  std::string extensions;
 };
 
 Streams split(const SpzHeader& header, std::string_view body) {
@@ -86,6 +93,7 @@ Streams split(const SpzHeader& header, std::string_view body) {
     streams.bytes[i] = body.substr(0, size);
     body.remove_prefix(size);
   }
+  streams.extensions = body;
   return streams;
 }
 
@@ -102,7 +110,11 @@ Streams zstd_streams(const std::string& origin, const SpzHeader& header, std::st
   check(toc >= kZstdHeaderBytes && toc + count * kTocEntryBytes <= bytes.size(),
         fmt::format("a table of streams at byte {} of {}", toc, bytes.size()),
         "it behind the header and within the file");
+  check(toc == kZstdHeaderBytes || header.has_extensions,
+        fmt::format("{} bytes before the table of streams", toc - kZstdHeaderBytes),
+        "none without the flag of extensions");
   Streams streams;
+  streams.extensions = bytes.substr(kZstdHeaderBytes, toc - kZstdHeaderBytes);
   const Strides strides(header);
   std::uint64_t begin = toc + count * kTocEntryBytes;
   for (std::size_t i = 0; i < count; ++i) {
@@ -133,32 +145,55 @@ float fixed_point(const char* bytes, double unit) {
   return static_cast<float>(value * unit);
 }
 
-// Three components of 8 bits each; the first one, w, follows.
+// Three components of 8 bits each; w, not the largest, follows.
 void decode_first_three(const char* bytes, float* rotation) {
-  double squared = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double part = byte_at(bytes + k) / 127.5 - 1.0;
-    rotation[k + 1] = static_cast<float>(part);
-    squared += part * part;
-  }
-  rotation[0] = static_cast<float>(std::sqrt(std::max(0.0, 1.0 - squared)));
+  decode_smallest_three(
+      {0, 1, 2, 3}, 0, [&] { return byte_at(bytes++) / 127.5 - 1.0; }, rotation);
 }
 
-// The three smaller ones in sign and 9 bits each; the largest, named by two bits, follows.
-void decode_smallest_three(std::uint32_t word, float* rotation) {
+// The three smaller ones in sign and 9 bits each, from w to x; the largest of x y z w, named by two
+// bits, follows.
+void decode_signed_three(std::uint32_t word, float* rotation) {
   constexpr std::uint32_t kMost = (1U << 9) - 1;
-  const std::uint32_t largest = word >> 30;
-  std::array<double, 4> xyzw{};
-  double squared = 0;
-  for (std::uint32_t k = 4; k-- > 0;) {
-    if (k == largest) continue;
+  const auto largest = static_cast<int>(word >> 30);
+  const auto next = [&] {
     const double part = std::sqrt(0.5) * (word & kMost) / kMost;
-    xyzw[k] = ((word >> 9) & 1) != 0 ? -part : part;
-    squared += part * part;
+    const bool negative = ((word >> 9) & 1) != 0;
     word >>= 10;
+    return negative ? -part : part;
+  };
+  decode_smallest_three({0, 3, 2, 1}, (largest + 1) % 4, next, rotation);
+}
+
+// Reads records of a type, a length and as many bytes.
+void read_extensions(const std::string& origin, std::string_view records, SceneContents& contents) {
+  constexpr std::uint32_t kSafeOrbitCamera = 0xadbe0002, kCoordinateSystem = 0xadbe0003;
+  // By the numbers of the extension's CoordinateSystem; f is front.
+  constexpr const char* kSystems[] = {"",    "ldb", "rdb", "lub", "rub", "ldf", "rdf", "luf", "ruf",
+                                      "lfd", "rfd", "lfu", "rfu", "lbd", "rbd", "lbu", "rbu"};
+  while (!records.empty()) {
+    const std::uint64_t size = records.size() < 8 ? 0 : load_number<std::uint32_t>(&records[4]);
+    if (records.size() < 8 || size > records.size() - 8) {
+      throw InputError(fmt::format("{}: got an extension of {} bytes in {}, expected whole ones",
+                                   origin, size, records.size()));
+    }
+    const auto type = load_number<std::uint32_t>(&records[0]);
+    const std::string_view body = records.substr(8, size);
+    records.remove_prefix(8 + size);
+    if (type == kSafeOrbitCamera) {
+      contents.notes.emplace_back("limits for a viewer's camera are skipped");
+    } else if (type != kCoordinateSystem) {
+      contents.notes.push_back(
+          fmt::format("extension {:#010x} of {} bytes is not known here and skipped", type, size));
+    } else {
+      const std::uint32_t system = size == 4 ? load_number<std::uint32_t>(body.data()) : 0;
+      if (system < 1 || system >= std::size(kSystems)) {
+        throw InputError(fmt::format("{}: got coordinate system {} in {} bytes, expected 1 to 16",
+                                     origin, system, size));
+      }
+      contents.axes = kSystems[system];
+    }
   }
-  xyzw[largest] = std::sqrt(std::max(0.0, 1.0 - squared));
-  for (int k = 0; k < 4; ++k) rotation[k] = static_cast<float>(xyzw[(k + 3) % 4]);
 }
 
 }  // namespace
@@ -176,12 +211,13 @@ SceneContents read_spz_bytes(const std::string& origin, std::string_view bytes,
     streams = zstd_streams(origin, header, bytes);
   } else {
     const std::uint64_t size = kSpzHeaderBytes + header.count * Strides(header).sum();
+    const std::uint64_t most = size + (header.has_extensions ? kMostExtensionBytes : 0);
     std::string unpacked;
     if (is_gzip) {
-      unpacked = gunzipped(origin, bytes, size);
+      unpacked = gunzipped(origin, bytes, size, most);
       bytes = unpacked;
     }
-    if (bytes.size() != size) {
+    if (bytes.size() < size || bytes.size() > most) {
       throw InputError(fmt::format("{}: got {} bytes, expected {} for {} Gaussians", origin,
                                    bytes.size(), size, header.count));
     }
@@ -207,7 +243,7 @@ SceneContents read_spz_bytes(const std::string& origin, std::string_view bytes,
         if (header.version < 3) {
           decode_first_three(record(4), slots + kRotationSlot);
         } else {
-          decode_smallest_three(load_number<std::uint32_t>(record(4)), slots + kRotationSlot);
+          decode_signed_three(load_number<std::uint32_t>(record(4)), slots + kRotationSlot);
         }
         for (int k = 0; k < rest; ++k) {
           for (int channel = 0; channel < 3; ++channel) {
@@ -217,12 +253,19 @@ SceneContents read_spz_bytes(const std::string& origin, std::string_view bytes,
         }
       });
   if (header.antialiased) contents.notes.emplace_back(kAntialiasedNote);
+  read_extensions(origin, streams.extensions, contents);
   return contents;
 }
 
 SceneContents read_spz(const std::string& path, const SceneReadOptions& options) {
   const InputFile file(path);
-  return read_spz_bytes(path, file.text_from(0, file.size_bytes()), options);
+  SceneContents contents = read_spz_bytes(path, file.text_from(0, file.size_bytes()), options);
+  if (options.axes.empty() && contents.axes.empty()) {
+    contents.notes.emplace_back(
+        "it states no axes and is read as it is stored; a file made as SPZ asks needs "
+        "--scene-axes rub to fit the cameras of its photographs");
+  }
+  return contents;
 }
 
 }  // namespace sgs

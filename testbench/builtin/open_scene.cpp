@@ -13,6 +13,11 @@ namespace sgs {
 
 Scene open_scene(const std::string& spec, const SceneReadOptions& options) {
   if (is_builtin_scene(spec)) {
+    if (options.level || !options.axes.empty()) {
+      throw InputError(fmt::format(
+          "{}: got {}, expected none: it is made, not read", spec,
+          options.level ? fmt::format("level {}", *options.level) : "the axes " + options.axes));
+    }
     BuiltinScene made = make_builtin_scene(spec);
     const std::size_t begin = spec.find(':') + 1;
     return {spec.substr(begin, spec.find('?') - begin), std::move(made.cloud),

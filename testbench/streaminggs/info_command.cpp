@@ -46,12 +46,7 @@ struct InfoArguments : SceneArguments {
 
 void print_dataset_in(const InfoArguments& arguments) {
   const std::string& folder = arguments.scene;
-  for (const char* given : {arguments.drop_invalid ? "--drop-invalid" : nullptr,
-                            arguments.level ? "--level" : nullptr}) {
-    if (given == nullptr) continue;
-    throw InputError(
-        fmt::format("{}: {} is a folder of photographs, expected a scene", given, folder));
-  }
+  arguments.refuse_reading("is a folder of photographs");
   print_dataset(while_doing("reading " + folder,
                             [&] { return open_dataset(folder, arguments.data.options); }));
 }

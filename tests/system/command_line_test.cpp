@@ -173,7 +173,8 @@ TEST_CASE("command line: cameras that see next to nothing are doubted") {
   const std::string simulate = "$SG simulate a.ply --cameras c --out o ";
   const std::string doubt =
       "view 0: 0.00 % of the Gaussians lie in the frame: is this a camera of this scene? Expected "
-      "position, and columns of rotation right, down and forward, in the scene's coordinates\n";
+      "position, and columns of rotation right, down and forward, in the scene's coordinates; "
+      "--scene-axes turns a scene\n";
   const std::string behind = ply_of({"0 0 -9"}), before = ply_of({"0 0 0"});
   for (const OptionRow& row : std::vector<OptionRow>{
            {simulate, {doubt}, behind},
@@ -207,6 +208,9 @@ TEST_CASE("command line: a picture of nothing, and Gaussians that are dropped, a
            {simulate + "--drop-invalid",
             {"dropped invalid: 2 Gaussians, 1 are left\n"},
             ply_of({"nan 0 0", "0 0 0", "0 inf 0"})},
+           {simulate + "--scene-axes rub && cat o/view_0/report.json",
+            {"\"axes\": \"rub\"", "note: a.ply: turned from axes rub to right, down, forward\n"},
+            ply_of({"0 0 0"})},
            {simulate + "--drop-invalid",
             {"dropped invalid: 0 Gaussians, 1 are left\n"},
             ply_of({"0 0 0"})}}) {

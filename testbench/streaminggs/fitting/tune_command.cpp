@@ -48,7 +48,11 @@ int run(const TuneArguments& arguments, const Kinds& kinds) {
   OutputPlan plan;
   arguments.add_inputs_to(plan);
   plan.add_input(arguments.config.path());
-  plan.add_input(arguments.target);
+  if (!arguments.target.empty()) {
+    for (const std::string& file : files_of_scene(arguments.target, arguments.reading())) {
+      plan.add_input(file);
+    }
+  }
   arguments.FittingArguments::add_to(plan);
   plan.check();
   Scene scene = arguments.load();

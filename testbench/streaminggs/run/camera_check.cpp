@@ -28,7 +28,8 @@ std::string doubt_about(const Camera& camera, const ActivatedCloud& cloud) {
   if (share >= kLeastShareInFrame) return "";
   return fmt::format(
       "{:.2f} % of the Gaussians lie in the frame: is this a camera of this scene? Expected "
-      "position, and columns of rotation right, down and forward, in the scene's coordinates",
+      "position, and columns of rotation right, down and forward, in the scene's coordinates; "
+      "--scene-axes turns a scene",
       100 * share);
 }
 

@@ -82,6 +82,7 @@ PreparedScene prepare(Scene scene, RunConfig& config, const std::vector<Camera>&
   scene.cloud = {};
   PreparedScene prepared =
       store(std::move(scene.name), scene.dropped_invalid, std::move(cloud), config, quantise);
+  prepared.axes = std::move(scene.axes);
   adapt(config, prepared);
   return prepared;
 }

@@ -22,6 +22,7 @@ struct PreparedScene {
   StoredScene stored;
   std::vector<StorageChoice> choices = {};  // choices that were left to the scene
   std::uint64_t image_hash = 0;             // hash of the bytes loaded into the memory
+  std::string axes = {};                    // see Scene
 
   // The scene that the reference picture shows: as given, where it is at hand, in storage order.
   const ActivatedCloud& given() const {

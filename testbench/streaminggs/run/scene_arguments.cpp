@@ -96,6 +96,9 @@ void SceneArguments::add_reading_to(CommandLine& line) {
       "them");
   line.whole("--level", level, 0, kMostLevel,
              "of a scene with levels of detail, from 0, the finest, which is the default");
+  line.text("--scene-axes", axes,
+            "where x, y and z of the scene point, as in rub for right, up, back, which .spz files "
+            "ought to have: it is turned to right, down, forward; as it is stored if not given");
 }
 
 void SceneArguments::add_views_to(CommandLine& line) {
@@ -132,7 +135,7 @@ std::string SceneArguments::default_out(const std::string& config_name) const {
 }
 
 void SceneArguments::add_inputs_to(OutputPlan& plan) const {
-  for (const std::string& file : files_of_scene(scene)) plan.add_input(file);
+  for (const std::string& file : files_of_scene(scene, reading())) plan.add_input(file);
   std::error_code unknown;
   if (!std::filesystem::is_directory(cameras_path, unknown)) return plan.add_input(cameras_path);
   for (const std::string& file : read_view_cameras(cameras_path).files) plan.add_input(file);
@@ -162,9 +165,7 @@ Scene SceneArguments::load() const {
 
 Scene SceneArguments::load_silently() const {
   check_file();
-  Scene loaded = while_doing("reading " + scene, [&] {
-    return open_scene(scene, {drop_invalid, level});
-  });
+  Scene loaded = while_doing("reading " + scene, [&] { return open_scene(scene, reading()); });
   if (loaded.dropped_invalid > 0 && loaded.cloud.size() == 0) {
     throw InputError(
         fmt::format("{}: --drop-invalid leaves none of {} Gaussians, expected one or more", scene,
@@ -175,14 +176,20 @@ Scene SceneArguments::load_silently() const {
 
 std::optional<PackedScene> SceneArguments::load_packed() const {
   if (!is_image_file(scene)) return {};
-  const auto refuse = [&](const char* argument) {
-    throw InputError(fmt::format("{}: {} is packed already, expected it where the scene is packed",
-                                 argument, scene));
-  };
-  if (drop_invalid) refuse("--drop-invalid");
-  if (level) refuse("--level");
-  if (!weigh_by.empty()) refuse("--weigh-by");
+  refuse_reading("is packed already");
+  if (!weigh_by.empty()) {
+    throw InputError(fmt::format(
+        "--weigh-by: {} is packed already, expected it where the scene is packed", scene));
+  }
   return while_doing("reading " + scene, [&] { return read_image_file(scene); });
+}
+
+void SceneArguments::refuse_reading(const std::string& what) const {
+  for (const char* given : {drop_invalid ? "--drop-invalid" : nullptr, level ? "--level" : nullptr,
+                            axes.empty() ? nullptr : "--scene-axes"}) {
+    if (given == nullptr) continue;
+    throw InputError(fmt::format("{}: {} {}, expected a file of Gaussians", given, scene, what));
+  }
 }
 
 ViewCameras SceneArguments::all_cameras(const std::vector<Camera>& own) const {

@@ -1,5 +1,5 @@
 // The arguments that all commands on a scene have in common: SCENE, --cameras, --view, --size,
-// --drop-invalid.
+// --drop-invalid, --level, --scene-axes.
 #pragma once
 
 #include <optional>
@@ -39,7 +39,10 @@ struct SceneArguments {
   std::vector<int> weigh_by;  // numbers of cameras; empty: all
   bool drop_invalid = false;
   std::optional<std::uint32_t> level;  // of detail, see SceneReadOptions
+  std::string axes;                    // of the scene, as there
   std::string cache;                   // cache of codebooks, as CodebookCache takes it
+
+  SceneReadOptions reading() const { return {drop_invalid, level, axes}; }
 
   // forms: what SCENE may be.
   void add_scene_to(CommandLine& line, const char* forms = kSceneForms);
@@ -66,6 +69,9 @@ struct SceneArguments {
   // The scene where it is a file made by pack, else nothing. Throws InputError, also for arguments
   // that only a scene that is not packed yet can take.
   std::optional<PackedScene> load_packed() const;
+  // Throws InputError for arguments that only a file of Gaussians can take, where any is given.
+  // what: that SCENE is, in words.
+  void refuse_reading(const std::string& what) const;
   // Those of the chosen views, scaled to `size`. own: those that the scene brings. Throws
   // InputError.
   ChosenCameras chosen_cameras(const std::vector<Camera>& own) const;

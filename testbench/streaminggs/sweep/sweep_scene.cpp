@@ -29,11 +29,14 @@ SweepScene::SweepScene(SceneArguments arguments) : arguments_(std::move(argument
   }
   packed_ = arguments_.load_packed();
   if (!packed_) arguments_.check_file();
-  const std::vector<std::string> files = files_of_scene(arguments_.scene);
+  const std::vector<std::string> files = files_of_scene(arguments_.scene, arguments_.reading());
   digest_ =
       files.size() == 1 ? xxh64_of_file(files.front()) : xxh64_of_text(digest_of_files(files));
   if (arguments_.level) {
     digest_ = xxh64_of_text(fmt::format("{:016x} level {}", digest_, *arguments_.level));
+  }
+  if (!arguments_.axes.empty()) {
+    digest_ = xxh64_of_text(fmt::format("{:016x} axes {}", digest_, arguments_.axes));
   }
 }
 
@@ -42,6 +45,7 @@ const ActivatedCloud& SweepScene::cloud() {
   Scene scene = arguments_.load();
   name_ = std::move(scene.name);
   dropped_invalid_ = scene.dropped_invalid;
+  axes_ = std::move(scene.axes);
   own_cameras_ = std::move(scene.cameras);
   return cloud_.emplace(activate(scene.cloud));
 }
@@ -98,7 +102,9 @@ PreparedScene SweepScene::prepared(RunConfig& config, const VqProgress& progress
     return codebooks_.emplace(key, quantise_scene(cloud, vq, cameras, progress)).first->second;
   };
   const ActivatedCloud& read = cloud();  // and with it the name
-  return store(name_, dropped_invalid_, read, config, quantise);
+  PreparedScene prepared = store(name_, dropped_invalid_, read, config, quantise);
+  prepared.axes = axes_;
+  return prepared;
 }
 
 }  // namespace sgs

@@ -52,6 +52,7 @@ class SweepScene {
   std::uint64_t digest_ = 0;
   std::string name_;
   std::uint64_t dropped_invalid_ = 0;
+  std::string axes_;
   std::vector<Camera> own_cameras_;
   std::optional<PackedScene> packed_;  // without its bytes once they were used
   std::optional<ActivatedCloud> cloud_;

@@ -1,11 +1,10 @@
-// ply_kinds.h through read_ply: what changes a picture is honoured or refused by name, the rest is
-// noted; filter_3D and infinities.
-#include "algorithm/scene/ply_kinds.h"
-
+// Kinds of ply_header.h through read_ply: what changes a picture is honoured or refused by name,
+// the rest is noted; filter_3D and infinities.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "algorithm/scene/ply_header.h"
 #include "algorithm/scene/ply_reader.h"
 #include "tests/algorithm/scene/ply_bytes.h"
 #include "tests/support/scratch_folder.h"
@@ -101,7 +100,8 @@ TEST_CASE("ply kinds: filter_3D is baked as Mip-Splatting bakes it") {
     table.format = format;
     add_column(table, "filter_3D", 0.75);
     const SceneContents read = read_ply(scratch.write("a.ply", test::bytes_of(table)));
-    CHECK(read.notes == std::vector<std::string>{"filter_3D is baked into scales and opacities"});
+    CHECK(read.notes == std::vector<std::string>{"filter_3D is baked into scales and opacities",
+                                                 kAntialiasedNote});
     double before = 1, after = 1;
     for (int axis = 0; axis < 3; ++axis) {
       const double scale[] = {0.5, 0.25, 2.0};

@@ -1,7 +1,8 @@
-// compressed_ply.h: every field, by the formulas of the format.
+// Compressed PLY: every field, by the formulas of the format.
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "algorithm/scene/ply_header.h"
 #include "algorithm/scene_files/load_scene.h"
 #include "tests/algorithm/scene_files/made_scene_files.h"
 #include "tests/support/scratch_folder.h"
@@ -70,6 +71,24 @@ TEST_CASE("compressed ply: opacities of 0 and 1 are infinite logits, ends of SH 
   CHECK(cloud.opacity_logits[1] == -INFINITY);
   CHECK(cloud.sh_coeffs[1].x == -4);
   CHECK(cloud.sh_coeffs[5].x == 4);
+}
+
+TEST_CASE("compressed ply: what is skipped is noted, other kinds are refused") {
+  const test::ScratchFolder scratch;
+  const auto renamed = [&](const std::string& from, const std::string& to) {
+    std::string bytes = test::compressed_ply_bytes(3, 1, true);
+    bytes.replace(bytes.find(from), from.size(), to);
+    return scratch.write("a.ply", bytes);
+  };
+  CHECK(load_scene(renamed("min_r", "other")).notes ==
+        std::vector<std::string>{"6 properties are skipped, since no picture needs them: other, "
+                                 "min_g, min_b, max_r, max_g, max_b"});
+  CHECK(load_scene(renamed("end_header", "comment Antialiased 1\nend_header")).notes ==
+        std::vector<std::string>{kAntialiasedNote});
+  CHECK_THAT(test::input_error_of([&] {
+               load_scene(renamed("end_header", "comment SplatRenderMode: 2dgs\nend_header"));
+             }),
+             Contains("surfels of 2DGS"));
 }
 
 TEST_CASE("compressed ply refuses: counts, types and properties that do not fit") {

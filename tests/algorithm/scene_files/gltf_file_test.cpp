@@ -1,4 +1,4 @@
-// gltf_file.h: attributes, nodes, SPZ within.
+// glTF: attributes, nodes, SPZ within.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -67,12 +67,29 @@ TEST_CASE("gltf: a .gltf with its buffer within or beside it") {
   replace(json, "\"byteLength\"", "\"uri\": \"a.bin\", \"byteLength\"");
   const GaussianCloud beside = load_scene(scratch.write("a.gltf", json)).cloud;
   CHECK(beside.means[1] == glm::vec3(-1, -2, 3));
+  scratch.write("other.bin", "x");
+  CHECK(files_of_scene(scratch.path("a.gltf")) ==
+        std::vector<std::string>{scratch.path("a.bin"), scratch.path("a.gltf")});
   replace(json, "a.bin", "data:application/octet-stream;base64,AAAA");
   CHECK_THAT(test::input_error_of([&] { load_scene(scratch.write("b.gltf", json)); }),
              Contains("expected at most the 3 bytes that are there"));
   replace(json, "AAAA", "AA*A");
   CHECK_THAT(test::input_error_of([&] { load_scene(scratch.write("b.gltf", json)); }),
              Contains("got \"*\" in base64"));
+}
+
+TEST_CASE("gltf: nodes may be nested as deep as one likes") {
+  constexpr int kNodes = 100'000;
+  std::string children = R"("children": [1]})";
+  for (int i = 2; i < kNodes; ++i) children += ", {\"children\": [" + std::to_string(i) + "]}";
+  std::string glb = test::glb_bytes(2, 0);
+  std::uint32_t json_bytes = 0;
+  std::memcpy(&json_bytes, &glb[12], sizeof json_bytes);
+  std::string json = glb.substr(20, json_bytes);
+  replace(json, R"("nodes": [{)", R"("nodes": [{)" + children + ", {");
+  const test::ScratchFolder scratch;
+  const std::string deep = test::glb_of(json, glb.substr(28 + json_bytes));
+  CHECK(load_scene(scratch.write("a.glb", deep)).cloud.means[1] == glm::vec3(-1, -2, 3));
 }
 
 TEST_CASE("gltf: an SPZ in a buffer view") {
@@ -118,4 +135,6 @@ TEST_CASE("gltf refuses: other kinds, and what does not fit its buffer") {
   CHECK_THAT(refusal("\"byteOffset\": 0", "\"byteOffset\": 9000"), Contains("byteLength"));
   CHECK_THAT(refusal("SH_DEGREE_1_COEF_2", "SH_DEGREE_1_COEF_9"), Contains("SH_DEGREE_1_COEF_2"));
   CHECK_THAT(refusal("\"2.0\"", "\"1.0\""), Contains("version: got \"1.0\""));
+  CHECK_THAT(refusal("\"scene\": 0", R"("extensionsRequired": ["EXT_other"], "scene": 0)"),
+             Contains("extensionsRequired: got EXT_other, expected none but KHR_gaussian_spl"));
 }

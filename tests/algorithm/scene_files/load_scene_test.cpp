@@ -2,7 +2,6 @@
 #include "algorithm/scene_files/load_scene.h"
 
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <filesystem>
 
 #include "algorithm/scene/ply_writer.h"
@@ -25,16 +24,24 @@ TEST_CASE("load scene: a file is named after itself") {
   CHECK(scene.dropped_invalid == 0);
 }
 
-TEST_CASE("load scene: the options reach the reader") {
+TEST_CASE("load scene: axes that are given are turned to right, down, forward") {
   const test::ScratchFolder scratch;
-  GaussianCloud cloud = make_builtin_scene("builtin:object?n=50").cloud;
-  cloud.means[7].y = NAN;
+  const GaussianCloud cloud = make_builtin_scene("builtin:object?n=50").cloud;
   write_ply(scratch.path("a.ply"), cloud);
-  CHECK_THAT(test::input_error_of([&] { load_scene(scratch.path("a.ply")); }),
-             Contains("vertex 7, property y"));
-  const Scene scene = load_scene(scratch.path("a.ply"), {true});
-  CHECK(scene.cloud.size() == 49);
-  CHECK(scene.dropped_invalid == 1);
+  SceneReadOptions options;
+  options.axes = "rfu";
+  const Scene scene = load_scene(scratch.path("a.ply"), options);
+  CHECK(scene.axes == "rfu");
+  CHECK(scene.notes == std::vector<std::string>{"turned from axes rfu to right, down, forward"});
+  for (std::size_t i = 0; i < 50; ++i) {
+    const glm::vec3& mean = cloud.means[i];
+    CHECK(scene.cloud.means[i] == glm::vec3(mean.x, -mean.z, mean.y));
+  }
+  options.axes = "rdf";
+  CHECK(load_scene(scratch.path("a.ply"), options).axes.empty());
+  options.axes = "ruf";
+  CHECK_THAT(test::input_error_of([&] { load_scene(scratch.path("a.ply"), options); }),
+             Contains("a.ply: got the axes ruf, expected r or l"));
 }
 
 TEST_CASE("load scene: a form is told by how the file begins") {

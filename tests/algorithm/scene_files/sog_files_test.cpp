@@ -1,6 +1,4 @@
-// sog_files.h: every field, by the formulas of the format; folders, zips, levels.
-#include "algorithm/scene_files/sog_files.h"
-
+// SOG: every field, by the formulas of the format; folders, zips, levels.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -43,6 +41,19 @@ void check_gaussian(const GaussianCloud& cloud, std::size_t i) {
     CHECK(cloud.quats[i][k] == Approx(part).margin(1e-7));
   }
   CHECK(cloud.quats[i][i % 4] >= 0);
+}
+
+// That the scene cannot be read without any of its files, and that there are so many.
+void check_files(const std::string& path, const SceneReadOptions& options, std::size_t count) {
+  const std::vector<std::string> files = files_of_scene(path, options);
+  CHECK(files.size() == count);
+  for (const std::string& file : files) {
+    CAPTURE(file);
+    std::filesystem::rename(file, file + ".away");
+    CHECK_THROWS_AS(load_scene(path, options), InputError);
+    std::filesystem::rename(file + ".away", file);
+  }
+  load_scene(path, options);
 }
 
 // Of three levels of 5, 3 and 2 Gaussians, the first in two files.
@@ -97,7 +108,10 @@ TEST_CASE("sog: a level of a streamed scene") {
                load_scene(meta, {false, 3});
              }),
              Contains("got level 3, expected one of its 3 levels"));
-  CHECK(files_of_scene(meta).size() == 4 * 8 + 1);
+  SceneReadOptions coarsest;
+  coarsest.level = 2;
+  check_files(meta, coarsest, 8 + 1);
+  CHECK(files_of_scene(meta).size() == 2 * 8 + 1);
   write_parts(scratch, "town/2_0", test::sog_parts(3, 1));
   CHECK_THAT(test::input_error_of([&] {
                load_scene(meta, {false, 2});
@@ -105,19 +119,40 @@ TEST_CASE("sog: a level of a streamed scene") {
              Contains("got 3 Gaussians, expected 2"));
 }
 
+TEST_CASE("sog: its files are those that it is read from, whatever else the folder holds") {
+  const test::ScratchFolder scratch;
+  write_parts(scratch, "room", test::sog_parts(3, 1));
+  write_parts(scratch, "room/out", {{"report.json", "{}"}});
+  check_files(scratch.path("room"), {}, 8);
+  scratch.write("a.sog", test::zip_bytes(test::sog_parts(3, 1)));
+  check_files(scratch.path("a.sog"), {}, 1);
+}
+
+TEST_CASE("sog: Gaussians without a label or a rotation are counted") {
+  const test::ScratchFolder scratch;
+  std::vector<test::Part> parts = test::sog_parts(10, 1);
+  std::string& meta = parts[0].bytes;
+  meta.replace(meta.find("\"count\": 3"), 10, "\"count\": 2");
+  for (test::Part& part : parts) {
+    if (part.name != "quats.webp") continue;
+    std::vector<std::uint8_t> rgba(12 * 4, 251);
+    rgba[3] = 252;
+    part.bytes = test::webp_bytes(rgba, 4);
+  }
+  const Scene scene = load_scene(scratch.write("a.sog", test::zip_bytes(parts)));
+  CHECK(scene.notes ==
+        std::vector<std::string>{"9 Gaussians have no rotation and are not turned",
+                                 "3 Gaussians have labels beyond the palette of 2 and look alike "
+                                 "from all sides"});
+  CHECK(scene.cloud.quats[1] == std::array<float, 4>{1, 0, 0, 0});
+  CHECK(scene.cloud.sh_coeffs[2 * 4 + 1] == glm::vec3(0));
+  CHECK(scene.cloud.sh_coeffs[3 * 4 + 1] != glm::vec3(0));
+}
+
 TEST_CASE("sog: a folder whose meta.json is of something else is no scene") {
   const test::ScratchFolder scratch;
   write_parts(scratch, "photographs", {{"meta.json", R"({"camera": "phone"})"}});
   CHECK_FALSE(is_scene_file(scratch.path("photographs")));
-}
-
-TEST_CASE("sog refuses: a level where there are none") {
-  const test::ScratchFolder scratch;
-  scratch.write("a.sog", test::zip_bytes(test::sog_parts(3, 0)));
-  CHECK_THAT(test::input_error_of([&] {
-               load_scene(scratch.path("a.sog"), {false, 0});
-             }),
-             Contains("got level 0 of a SOG file, which has no levels"));
 }
 
 TEST_CASE("sog refuses: other versions, missing parts, small pictures, names that lead elsewhere") {
@@ -137,11 +172,12 @@ TEST_CASE("sog refuses: other versions, missing parts, small pictures, names tha
   CHECK_THAT(refusal("\"version\": 2, ", ""),
              Contains("splat-transform makes it of a SOG of version 1"));
   CHECK_THAT(refusal("\"version\": 2", "\"version\": 3"), Contains("version: got 3, expected 2"));
-  CHECK_THAT(refusal("\"count\": 10", "\"count\": 4000000000"), Contains("px in"));
+  CHECK_THAT(refusal("\"count\": 10", "\"count\": 4000000000"),
+             Contains("px, expected at least 4000000000 px"));
   CHECK_THAT(refusal("\"count\": 10", "\"count\": -1"), Contains("count: got -1"));
   CHECK_THAT(refusal("quats.webp", "other.webp"), Contains("other.webp"));
   CHECK_THAT(refusal("quats.webp", "../quats.webp"), Contains("expected one below this place"));
-  CHECK_THAT(refusal("quats.webp", "meta.json"), Contains("expected a WebP picture"));
+  CHECK_THAT(refusal("quats.webp", "meta.json"), Contains("expected a WebP image"));
   CHECK_THAT(refusal("\"bands\": 1", "\"bands\": 2"), Contains("shN_centroids.webp"));
   CHECK_THAT(refusal("\"bands\": 1", "\"bands\": 4"), Contains("bands: got 4, expected 1 to 3"));
   CHECK_THAT(refusal("\"count\": 3", "\"count\": 65"), Contains("shN_centroids.webp"));

@@ -1,7 +1,8 @@
-// spz_file.h: every field of every version, by the formulas of the format.
+// .spz: every field of every version, by the formulas of the format.
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "algorithm/scene/ply_header.h"
 #include "algorithm/scene_files/load_scene.h"
 #include "tests/algorithm/scene_files/made_scene_files.h"
 #include "tests/support/scratch_folder.h"
@@ -55,7 +56,8 @@ TEST_CASE("spz: every field of every version and degree") {
       CAPTURE(version, degree);
       const Scene scene = load_scene(scratch.write("a.spz", test::spz_bytes(version, 9, degree)));
       CHECK(scene.form == "SPZ");
-      CHECK(scene.notes.empty());
+      REQUIRE(scene.notes.size() == 1);
+      CHECK_THAT(scene.notes[0], Contains("needs --scene-axes rub"));
       REQUIRE(scene.cloud.size() == 9);
       REQUIRE(scene.cloud.sh_degree == degree);
       for (std::size_t i = 0; i < 9; ++i) check_gaussian(scene.cloud, i, version);
@@ -76,8 +78,93 @@ TEST_CASE("spz: a scene for anti-aliased rasterisers is noted") {
   std::string bytes = test::spz_bytes(4, 3, 1);
   bytes[14] = 1;
   const Scene scene = load_scene(scratch.write("a.spz", bytes));
-  REQUIRE(scene.notes.size() == 1);
-  CHECK_THAT(scene.notes[0], Contains("anti-aliased rasteriser"));
+  REQUIRE(scene.notes.size() == 2);
+  CHECK(scene.notes[0] == kAntialiasedNote);
+}
+
+namespace {
+
+std::string record(std::uint32_t type, const std::string& body) {
+  std::string bytes;
+  test::put(bytes, type);
+  test::put(bytes, static_cast<std::uint32_t>(body.size()));
+  return bytes + body;
+}
+
+std::string axes_record(std::uint32_t system) {
+  std::string body;
+  test::put(body, system);
+  return record(0xadbe0003, body);
+}
+
+// Three Gaussians of degree 1 with extensions: behind the header from version 4 on, else at the
+// end.
+std::string extended(std::uint32_t version, const std::string& records) {
+  if (version < 4) {
+    std::string bytes = test::bare_spz_bytes(version, 3, 1);
+    bytes[14] = 2;
+    return test::gzip_bytes(bytes + records);
+  }
+  std::string bytes = test::spz_bytes(version, 3, 1);
+  bytes[14] = 2;
+  test::put_at(bytes, 16, static_cast<std::uint32_t>(32 + records.size()));
+  return bytes.insert(32, records);
+}
+
+}  // namespace
+
+TEST_CASE("spz: extensions state axes, or are noted") {
+  const test::ScratchFolder scratch;
+  for (const std::uint32_t version : {2U, 3U, 4U}) {
+    CAPTURE(version);
+    const GaussianCloud plain =
+        load_scene(scratch.write("a.spz", test::spz_bytes(version, 3, 1))).cloud;
+    const std::string path = scratch.write(
+        "b.spz", extended(version, record(0xadbe0002, "0123456789ab") +
+                                       record(0x12340001, "secret") + axes_record(4)));
+    const Scene turned = load_scene(path);
+    CHECK(turned.axes == "rub");
+    REQUIRE(turned.notes.size() == 3);
+    CHECK_THAT(turned.notes[0], Contains("limits for a viewer's camera are skipped"));
+    CHECK_THAT(turned.notes[1], Contains("extension 0x12340001 of 6 bytes is not known here"));
+    CHECK(turned.notes[2] == "turned from axes rub to right, down, forward");
+    for (std::size_t i = 0; i < 3; ++i) {
+      CHECK(turned.cloud.means[i] == plain.means[i] * glm::vec3(1, -1, -1));
+      // (0, -1, 0, 0), half a turn about x, times the quaternion.
+      CHECK(turned.cloud.quats[i][0] == plain.quats[i][1]);
+      CHECK(turned.cloud.quats[i][1] == -plain.quats[i][0]);
+      CHECK(turned.cloud.quats[i][2] == plain.quats[i][3]);
+      CHECK(turned.cloud.quats[i][3] == -plain.quats[i][2]);
+      // Coefficients go with y, z and x.
+      CHECK(turned.cloud.sh_coeffs[4 * i + 1] == -plain.sh_coeffs[4 * i + 1]);
+      CHECK(turned.cloud.sh_coeffs[4 * i + 2] == -plain.sh_coeffs[4 * i + 2]);
+      CHECK(turned.cloud.sh_coeffs[4 * i + 3] == plain.sh_coeffs[4 * i + 3]);
+    }
+    SceneReadOptions as_stored;
+    as_stored.axes = "rdf";
+    const Scene other = load_scene(path, as_stored);
+    CHECK(other.axes.empty());
+    CHECK(other.cloud.means == plain.means);
+    CHECK(load_scene(scratch.write("c.spz", extended(version, axes_record(6)))).cloud.quats ==
+          plain.quats);
+  }
+}
+
+TEST_CASE("spz refuses: damaged extensions, axes that mirror, extensions without their flag") {
+  const test::ScratchFolder scratch;
+  const auto refusal = [&](const std::string& bytes) {
+    return test::input_error_of([&] { load_scene(scratch.write("a.spz", bytes)); });
+  };
+  for (const std::uint32_t version : {3U, 4U}) {
+    CHECK_THAT(refusal(extended(version, axes_record(8))), Contains("got the axes ruf, expected"));
+    CHECK_THAT(refusal(extended(version, axes_record(17))), Contains("coordinate system 17"));
+    CHECK_THAT(refusal(extended(version, record(0xadbe0003, "x"))), Contains("in 1 bytes"));
+    CHECK_THAT(refusal(extended(version, axes_record(4).substr(0, 11))),
+               Contains("an extension of 4 bytes in 11"));
+  }
+  std::string unmarked = extended(4, axes_record(4));
+  unmarked[14] = 0;
+  CHECK_THAT(refusal(unmarked), Contains("12 bytes before the table of streams"));
 }
 
 TEST_CASE("spz refuses: what it cannot be, by name") {
@@ -91,6 +178,7 @@ TEST_CASE("spz refuses: what it cannot be, by name") {
   };
   const std::string bare = test::bare_spz_bytes(2, 3, 1), zstd = test::spz_bytes(4, 3, 1);
   CHECK_THAT(refusal(changed(bare, 4, 5)), Contains("got version 5 of .spz, expected 1 to 4"));
+  CHECK_THAT(refusal(changed(bare, 14, 0x80)), Contains("got the flags 0x80, expected 0x01"));
   CHECK_THAT(refusal(changed(bare, 12, 4)), Contains("got SH degree 4, expected 0 to 3"));
   CHECK_THAT(refusal(changed(bare, 13, 31)), Contains("31 fractional bits"));
   CHECK_THAT(refusal(test::gzip_bytes("solid cube, more than sixteen bytes")),

@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "algorithm/scene/ply_writer.h"
 #include "algorithm/storage/stored_scene.h"
 #include "modules/machines.h"
 #include "testbench/streaminggs/run/recently_used.h"
+#include "tests/support/scratch_folder.h"
 
 namespace sgs {
 namespace {
@@ -63,6 +65,18 @@ TEST_CASE("sweep scene: one key for what is stored alike") {
     INFO(other);
     CHECK(key({other}) != base);
   }
+}
+
+TEST_CASE("sweep scene: the digest is of the file and of how it is read") {
+  const test::ScratchFolder scratch;
+  SceneArguments arguments;
+  arguments.scene = scratch.path("a.ply");
+  write_ply(arguments.scene, small_scene().load().cloud);
+  const std::uint64_t plain = SweepScene(arguments).digest();
+  scratch.write("b.ply", "x");
+  CHECK(SweepScene(arguments).digest() == plain);
+  arguments.axes = "rub";
+  CHECK(SweepScene(arguments).digest() != plain);
 }
 
 struct Block {

@@ -1,5 +1,5 @@
-// placement.h: a moved Gaussian looks from a moved place as it did before.
-#include "algorithm/scene_files/placement.h"
+// assembled_scene.h: a moved Gaussian looks from a moved place as it did before; names of axes.
+#include "algorithm/scene_files/assembled_scene.h"
 
 #include <array>
 #include <catch2/catch.hpp>
@@ -87,4 +87,32 @@ TEST_CASE("placement: none for shear, mirrors and scales that differ") {
   glm::dmat4 shear(1);
   shear[1][0] = 0.5;
   CHECK_FALSE(Placement::of(shear));
+}
+
+TEST_CASE("placement: half of all names of axes turn, the others mirror or name an axis twice") {
+  int turning = 0;
+  const std::string letters = "rludfb";
+  for (const char x : letters) {
+    for (const char y : letters) {
+      for (const char z : letters) {
+        const std::string axes{x, y, z};
+        const auto placement = Placement::from_axes(axes);
+        turning += placement ? 1 : 0;
+        if (!placement) continue;
+        // The centre (1, 2, 3) lies one step along the first axis, and so on.
+        Slots slots = some_slots();
+        for (int i = 0; i < 3; ++i) slots[kMeanSlot + i] = static_cast<float>(i + 1);
+        placement->apply(0, slots.data());
+        for (int i = 0; i < 3; ++i) {
+          const std::size_t at = letters.find(axes[static_cast<std::size_t>(i)]);
+          const bool negative = axes[static_cast<std::size_t>(i)] == 'l' ||
+                                axes[static_cast<std::size_t>(i)] == 'u' ||
+                                axes[static_cast<std::size_t>(i)] == 'b';
+          CHECK(slots[kMeanSlot + at / 2] == static_cast<float>(negative ? -i - 1 : i + 1));
+        }
+      }
+    }
+  }
+  CHECK(turning == 24);
+  for (const char* none : {"", "rd", "rdfx", "RUB", "rux"}) CHECK_FALSE(Placement::from_axes(none));
 }

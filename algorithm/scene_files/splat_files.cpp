@@ -1,14 +1,15 @@
-// Headers, buckets and records of ksplat_file.h.
-#include "algorithm/scene_files/ksplat_file.h"
-
+// The two forms of web viewers in scene_forms.h.
 #include <fmt/format.h>
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_file.h"
 #include "algorithm/scene_files/decoded_scene.h"
+#include "algorithm/scene_files/scene_forms.h"
 
 namespace sgs {
 namespace {
+
+// .ksplat
 
 constexpr std::uint64_t kMainHeaderBytes = 4096, kSectionHeaderBytes = 1024;
 constexpr int kMostCompression = 2;
@@ -229,10 +230,48 @@ class KsplatReader {
   std::vector<Section> sections_;
 };
 
+// .splat
+
+constexpr std::uint64_t kSplatBytes = 32;
+constexpr int kScaleAt = 12, kColourAt = 24, kOpacityAt = 27, kRotationAt = 28;
+
+void decode_splat_rotation(const char* bytes, float* rotation) {
+  std::array<double, 4> q{};
+  for (int k = 0; k < 4; ++k) q[k] = (byte_at(bytes + k) / 255.0) * 2 - 1;
+  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  for (int k = 0; k < 4; ++k) rotation[k] = static_cast<float>(q[k] / length);
+}
+
 }  // namespace
 
 SceneContents read_ksplat(const std::string& path, const SceneReadOptions& options) {
   return KsplatReader(path).decoded(options);
+}
+
+SceneContents read_splat(const std::string& path, const SceneReadOptions& options) {
+  const InputFile file(path);
+  if (file.size_bytes() == 0 || file.size_bytes() % kSplatBytes != 0) {
+    throw InputError(fmt::format("{}: got {} bytes, expected records of {} bytes", path,
+                                 file.size_bytes(), kSplatBytes));
+  }
+  const std::string bytes = file.text_from(0, file.size_bytes());
+  SceneContents contents = decoded_scene(
+      path, bytes.size() / kSplatBytes, 0, options, [&](std::uint64_t index, float* slots) {
+        const char* record = &bytes[index * kSplatBytes];
+        for (int axis = 0; axis < 3; ++axis) {
+          slots[kMeanSlot + axis] = load_number<float>(record + 4 * axis);
+          const double scale = load_number<float>(record + kScaleAt + 4 * axis);
+          slots[kScaleSlot + axis] = static_cast<float>(std::log(scale));
+          const double colour = byte_at(record + kColourAt + axis) / 255.0;
+          slots[kDcSlot + axis] = static_cast<float>(dc_of_colour(colour));
+        }
+        slots[kOpacitySlot] = logit_of_byte(byte_at(record + kOpacityAt));
+        decode_splat_rotation(record + kRotationAt, slots + kRotationSlot);
+      });
+  contents.notes.emplace_back(
+      "rotations are read as splat-transform reads them, byte / 127.5 - 1; the form's first viewer "
+      "takes byte / 128 - 1");
+  return contents;
 }
 
 }  // namespace sgs
