@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "algorithm/files/input_error.h"
@@ -14,7 +15,6 @@
 #include "algorithm/scene/ply_kinds.h"
 #include "algorithm/scene_files/decoded_scene.h"
 #include "algorithm/scene_files/joined_scenes.h"
-#include "algorithm/scene_files/json_fields.h"
 #include "algorithm/scene_files/scene_parts.h"
 #include "algorithm/scene_files/webp_texture.h"
 
@@ -27,19 +27,19 @@ using Codebook = std::array<float, 256>;
 
 constexpr std::uint64_t kPaletteColumns = 64;  // entries a row of the centroids' picture
 
-Codebook codebook_of(const JsonFields& fields, float missing) {
-  const std::vector<double> values = fields.numbers("codebook");
+Codebook codebook_of(const JsonPlace& fields, float missing) {
+  const std::vector<double> values = fields.at("codebook").numbers();
   Codebook book;
   book.fill(missing);
-  if (values.size() > book.size()) fields.refuse("codebook", "at most 256 numbers");
+  if (values.size() > book.size()) fields.at("codebook").refuse("at most 256 numbers");
   std::transform(values.begin(), values.end(), book.begin(),
                  [](double value) { return static_cast<float>(value); });
   return book;
 }
 
-std::string file_name(const JsonFields& fields, std::size_t index) {
-  const std::vector<std::string> names = fields.texts("files");
-  if (names.size() <= index) fields.refuse("files", fmt::format("{} names or more", index + 1));
+std::string file_name(const JsonPlace& fields, std::size_t index) {
+  const std::vector<std::string> names = fields.at("files").texts();
+  if (names.size() <= index) fields.at("files").refuse(fmt::format("{} names or more", index + 1));
   return names[index];
 }
 
@@ -48,10 +48,11 @@ struct Centres {
   RgbaTexture low, high;
   std::array<double, 3> least, span;
 
-  Centres(const SceneParts& parts, const JsonFields& fields, std::uint64_t count)
+  Centres(const SceneParts& parts, const JsonPlace& fields, std::uint64_t count)
       : low(read_webp(parts, file_name(fields, 0), count)),
         high(read_webp(parts, file_name(fields, 1), count)) {
-    const std::vector<double> mins = fields.numbers("mins", 3), maxs = fields.numbers("maxs", 3);
+    const std::vector<double> mins = fields.at("mins").numbers(3),
+                              maxs = fields.at("maxs").numbers(3);
     for (std::size_t i = 0; i < 3; ++i) {
       least[i] = mins[i];
       span[i] = maxs[i] == mins[i] ? 1 : maxs[i] - mins[i];
@@ -90,18 +91,18 @@ struct Palette {
   RgbaTexture entries, labels;
   Codebook codebook;
 
-  Palette(const SceneParts& parts, const JsonFields& fields, std::uint64_t gaussians) {
-    const std::uint64_t bands = fields.whole("bands");
-    if (bands < 1 || bands > 3) fields.refuse("bands", "1 to 3");
+  Palette(const SceneParts& parts, const JsonPlace& fields, std::uint64_t gaussians) {
+    const std::uint64_t bands = fields.at("bands").whole();
+    if (bands < 1 || bands > 3) fields.at("bands").refuse("1 to 3");
     degree = static_cast<int>(bands);
     codebook = codebook_of(fields, 0);
-    count = fields.whole("count");
+    count = fields.at("count").whole();
     const auto coeffs = static_cast<std::uint64_t>(rest_coeff_count(degree));
     const std::uint64_t rows = (count + kPaletteColumns - 1) / kPaletteColumns;
     entries = read_webp(parts, file_name(fields, 0), kPaletteColumns * coeffs * rows);
     if (entries.width != kPaletteColumns * coeffs) {
       throw InputError(fmt::format("{}: {}: got {} px a row, expected {} for {} bands",
-                                   fields.origin(), file_name(fields, 0), entries.width,
+                                   fields.name(), file_name(fields, 0), entries.width,
                                    kPaletteColumns * coeffs, bands));
     }
     labels = read_webp(parts, file_name(fields, 1), gaussians);
@@ -124,31 +125,31 @@ struct Palette {
   }
 };
 
-void check_version(const JsonFields& meta) {
-  if (!meta.has("version") && meta.has("means")) {
-    meta.refuse("version", "2: splat-transform makes it of a SOG of version 1");
-  }
-  if (meta.whole("version") != 2) meta.refuse("version", "2");
+void check_version(const JsonPlace& meta) {
+  const char* expected =
+      meta.has("means") ? "2: splat-transform makes it of a SOG of version 1" : "2";
+  const JsonPlace version = meta.at("version", expected);
+  if (version.whole() != 2) version.refuse("2");
 }
 
 SceneContents read_parts(const SceneParts& parts, const std::string& meta_name,
                          const SceneReadOptions& options) {
   const std::string origin = parts.origin(meta_name);
   const Json json = parse_json(parts.bytes(meta_name), origin);
-  const JsonFields meta(origin, json);
+  const JsonPlace meta(origin, json);
   check_version(meta);
-  const std::uint64_t count = meta.whole("count");
-  const std::string model = meta.has("model") ? meta.text("model") : "default";
-  if (model == "2dgs") meta.refuse("model", "3D Gaussians");
-  const Centres centres(parts, meta.object("means"), count);
-  const RgbaTexture rotations = read_webp(parts, file_name(meta.object("quats"), 0), count);
-  const RgbaTexture scales = read_webp(parts, file_name(meta.object("scales"), 0), count);
-  const RgbaTexture colours = read_webp(parts, file_name(meta.object("sh0"), 0), count);
+  const std::uint64_t count = meta.at("count").whole();
+  const std::string model = meta.has("model") ? meta.at("model").text() : "default";
+  if (model == "2dgs") meta.at("model").refuse("3D Gaussians");
+  const Centres centres(parts, meta.at("means"), count);
+  const RgbaTexture rotations = read_webp(parts, file_name(meta.at("quats"), 0), count);
+  const RgbaTexture scales = read_webp(parts, file_name(meta.at("scales"), 0), count);
+  const RgbaTexture colours = read_webp(parts, file_name(meta.at("sh0"), 0), count);
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-  const Codebook scale_book = codebook_of(meta.object("scales"), kNone);
-  const Codebook colour_book = codebook_of(meta.object("sh0"), kNone);
+  const Codebook scale_book = codebook_of(meta.at("scales"), kNone);
+  const Codebook colour_book = codebook_of(meta.at("sh0"), kNone);
   std::optional<Palette> palette;
-  if (meta.has("shN")) palette.emplace(parts, meta.object("shN"), count);
+  if (meta.has("shN")) palette.emplace(parts, meta.at("shN"), count);
 
   SceneContents contents =
       decoded_scene(origin, count, palette ? palette->degree : 0, options,
@@ -178,20 +179,21 @@ std::string named_file(const std::string& path, const char* name) {
 // Of each file of a level, by its number, the Gaussians that the tree says it has.
 using LevelFiles = std::map<std::uint64_t, std::uint64_t>;
 
-void add_files(const JsonFields& node, const std::string& level, std::uint64_t file_count,
+void add_files(const JsonPlace& node, const std::string& level, std::uint64_t file_count,
                LevelFiles& files) {
   if (node.has("lods")) {
-    const JsonFields lods = node.object("lods");
+    const JsonPlace lods = node.at("lods");
     if (lods.has(level)) {
-      const JsonFields part = lods.object(level);
-      if (part.whole("file") >= file_count) part.refuse("file", "one of filenames");
-      part.whole("offset");
-      files[part.whole("file")] += part.whole("count");
+      const JsonPlace part = lods.at(level);
+      const std::uint64_t file = part.at("file").whole();
+      if (file >= file_count) part.at("file").refuse("one of filenames");
+      part.at("offset").whole();
+      files[file] += part.at("count").whole();
     }
   }
   if (!node.has("children")) return;
-  for (const Json& child : node.list("children")) {
-    add_files(JsonFields(node.origin(), child), level, file_count, files);
+  for (const JsonPlace& child : node.at("children").elements()) {
+    add_files(child, level, file_count, files);
   }
 }
 
@@ -219,17 +221,17 @@ SceneContents read_streamed_sog(const std::string& path, const SceneReadOptions&
   const std::string meta_path = named_file(path, kStreamedSogMeta);
   const std::unique_ptr<SceneParts> parts = open_folder_of(meta_path);
   const Json json = read_json(meta_path);
-  const JsonFields meta(meta_path, json);
-  if (meta.whole_or("version", 1) != 1) meta.refuse("version", "1");
-  const std::uint64_t levels = meta.whole("lodLevels");
+  const JsonPlace meta(meta_path, json);
+  if (meta.whole_or("version", 1) != 1) meta.at("version").refuse("1");
+  const std::uint64_t levels = meta.at("lodLevels").whole();
   const std::uint32_t level = options.level.value_or(0);
   if (level >= levels) {
     throw InputError(fmt::format("{}: got level {}, expected one of its {} levels, from 0",
                                  meta_path, level, levels));
   }
-  const std::vector<std::string> names = meta.texts("filenames");
+  const std::vector<std::string> names = meta.at("filenames").texts();
   LevelFiles files;
-  add_files(meta.object("tree"), std::to_string(level), names.size(), files);
+  add_files(meta.at("tree"), std::to_string(level), names.size(), files);
 
   SceneContents all;
   const SceneReadOptions each{options.drop_invalid};
@@ -247,7 +249,7 @@ SceneContents read_streamed_sog(const std::string& path, const SceneReadOptions&
   all.notes.push_back(fmt::format("level {} of 0 to {}, 0 the finest", level, levels - 1));
   if (meta.has("environment")) {
     all.notes.push_back(fmt::format("its environment {} is of no level and is not drawn",
-                                    shown(meta.at("environment"))));
+                                    shown(meta.at("environment").json())));
   }
   return all;
 }
