@@ -248,7 +248,7 @@ TEST_CASE("bad input: numbers, keys and values that mean nothing") {
             "printf '\nhfus' >p"},
            {"$SG sweep $B --out r --points p",
             2,
-            {"p:1: seed: unknown key, expected id, scene"},
+            {"p:1: seed: unknown key, expected one of id, scene"},
             "echo '{\"seed\": 1}' >p"},
            {"$SG sweep $B --out r --points p", 2, {"p:1: byte", "not JSON"}, "echo '{\"set\"' >p"},
            {"$SG sweep --out r --axis hfus=2", 2, {"SCENE: got none, expected a scene (.ply"}},
