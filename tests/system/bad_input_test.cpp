@@ -16,8 +16,9 @@ TEST_CASE("bad input: cameras that cannot be drawn are named with their file, be
   };
   const Row rows[] = {
       {"16", "15", "1e30",
-       ": camera 1: position[1]: got 1e+30, expected a magnitude of at most 1e+18"},
-      {"16", "1e12", "0", ": camera 1: fx: got 1000000000000, expected at most 1000000000 px"},
+       ": camera 1: position: got (0, 1e+30, -5), expected finite numbers of at most 1e+18"},
+      {"16", "1e12", "0",
+       ": camera 1: focal length: got 1000000000000, expected px above 0, at most 1000000000"},
       {"65537", "15", "0", ": view 1: got 65537x9 px, expected at most 65536 a side, or --size"},
       {"200000", "15", "0", ": view 1: got 200000x9 px, expected at most 65536 a side, or --size"}};
   const auto camera = [](const Row& row) {
