@@ -4,7 +4,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "algorithm/dataset/colmap_lens.h"
+#include "algorithm/dataset/colmap_model.h"
 #include "algorithm/dataset/stated_view.h"
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_file.h"
@@ -112,7 +112,7 @@ void read_images(ByteReader& file, ColmapModel& model) {
     rotation.x = axis.x;
     rotation.y = axis.y;
     rotation.z = axis.z;
-    image.pose = colmap_pose(rotation, file.triple("a translation"), image.where);
+    image.pose = colmap_pose(rotation, file.triple("a translation"), image.where + ": pose");
     image.camera_id = file.read<std::uint32_t>("a camera id");
     image.name = file.name("an image's name");
     file.skip(kPoint2dBytes * file.count(kPoint2dBytes, "points of an image"));

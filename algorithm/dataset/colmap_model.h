@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,7 +43,22 @@ std::vector<SfmPoint> read_colmap_points_binary(const std::string& folder);
 ColmapModel read_colmap_text(const std::string& folder);
 std::vector<SfmPoint> read_colmap_points_text(const std::string& folder);
 
-// Both make their models by this. Throws InputError that begins with camera.where.
+// Both make their models by what follows.
+
+// Throws InputError that begins with camera.where: its id a second time.
 void add_colmap_camera(ColmapModel& model, std::uint32_t id, ColmapCamera camera);
+
+// The camera models (colmap.github.io/cameras.html; src/colmap/sensor/models.h).
+
+// Its name by its number in binary files. Throws InputError that begins with `where`: no such
+// number.
+std::string colmap_model_name(std::int32_t number, const std::string& where);
+
+// Numbers that a camera of this model has; nothing of a model that is not COLMAP's.
+std::optional<int> colmap_parameter_count(std::string_view model);
+
+// Throws InputError that begins with camera.where: a size that is no number of px from 1, a
+// parameter that is not finite. A model that is not read is one of LensKind::kOther.
+Intrinsics colmap_intrinsics(const ColmapCamera& camera);
 
 }  // namespace sgs

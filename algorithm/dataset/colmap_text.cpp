@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "algorithm/dataset/colmap_lens.h"
+#include "algorithm/dataset/colmap_model.h"
 #include "algorithm/dataset/stated_view.h"
 #include "algorithm/dataset/text_fields.h"
 #include "algorithm/files/input_error.h"
@@ -88,7 +88,7 @@ ColmapImage read_image(std::string_view line, const std::string& where) {
   rotation.x = numbers[1];
   rotation.y = numbers[2];
   rotation.z = numbers[3];
-  image.pose = colmap_pose(rotation, {numbers[4], numbers[5], numbers[6]}, where);
+  image.pose = colmap_pose(rotation, {numbers[4], numbers[5], numbers[6]}, where + ": pose");
   image.camera_id = static_cast<std::uint32_t>(fields.whole_number("a camera id", kMostId));
   image.name = fields.rest("an image's name");
   return image;

@@ -1,19 +1,18 @@
-// What all layouts have in common, and the reading of a view's image.
+// What all layouts have in common.
 #include "algorithm/dataset/dataset.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <map>
+#include <set>
 #include <utility>
 
-#include "algorithm/dataset/dataset_notes.h"
 #include "algorithm/dataset/image_search.h"
 #include "algorithm/dataset/layout.h"
 #include "algorithm/dataset/view_image.h"
 #include "algorithm/files/input_error.h"
-#include "algorithm/image/image_io.h"
 #include "algorithm/scene/camera.h"
 
 namespace sgs {
@@ -63,6 +62,60 @@ std::vector<FoundView> found_views(std::vector<StatedView> stated, const ImageSe
                    [](const FoundView& a, const FoundView& b) { return a.name < b.name; });
   refuse_equal_names(views);
   return views;
+}
+
+// Empty where no view has a lens with distortion.
+std::string of_lenses(const Dataset& dataset) {
+  std::set<std::string> models;
+  int views = 0;
+  double file_px = 0, seen_px = 0;
+  bool fisheye = false;
+  for (const DatasetView& view : dataset.views) {
+    const Lens& lens = view.taken.lens;
+    if (is_pinhole(lens)) continue;
+    ++views;
+    models.insert(lens.model);
+    fisheye = fisheye || lens.kind == LensKind::kFisheye;
+    const double px = static_cast<double>(view.file.width) * view.file.height;
+    file_px += px;
+    seen_px += view.seen * px;
+  }
+  if (views == 0) return {};
+  return fmt::format(
+      "{} views ({}), {:.1f} % of their pixels are lost{}", views, join(models),
+      100 * (1 - seen_px / file_px),
+      fisheye ? fmt::format("; at most {} degrees are seen", kWidestFieldDegrees) : "");
+}
+
+std::string of_masks(const Dataset& dataset) {
+  int views = 0;
+  for (const DatasetView& view : dataset.views) views += view.mask_path.empty() ? 0 : 1;
+  if (views == 0) return {};
+  return fmt::format("of {} views: what is black in them is in no loss and no quality", views);
+}
+
+std::string of_keys(const std::map<std::string, int>& unread_keys) {
+  std::vector<std::string> words;
+  for (const auto& [key, count] : unread_keys) {
+    words.push_back(count == 1 ? key : fmt::format("{} ({} times)", key, count));
+  }
+  return join(words);
+}
+
+// A title and a sentence each: photographs made a pinhole's, with the share of pixels that is lost;
+// masks; another folder of images (empty: none); names that were not read.
+std::vector<std::pair<std::string, std::string>> notes_of(
+    const Dataset& dataset, const std::map<std::string, int>& unread_keys,
+    const std::string& instead_of_images) {
+  std::vector<std::pair<std::string, std::string>> notes;
+  const auto note = [&](const char* title, std::string text) {
+    if (!text.empty()) notes.emplace_back(title, std::move(text));
+  };
+  note("undistorted", of_lenses(dataset));
+  note("masks", of_masks(dataset));
+  note("images from", instead_of_images);
+  note("not read", of_keys(unread_keys));
+  return notes;
 }
 
 }  // namespace
@@ -126,71 +179,6 @@ Camera downscaled_camera(const DatasetView& view, double downscale) {
     return std::max(1, static_cast<int>(std::lround(px / downscale)));
   };
   return scaled_to(view.camera, smaller(view.camera.width), smaller(view.camera.height));
-}
-
-namespace {
-
-RgbaImage checked(const DatasetView& view, RgbaImage image) {
-  if (image.width == view.file.width && image.height == view.file.height) return image;
-  throw InputError(fmt::format("{}: got {}x{} px, expected {}x{} as when the data set was opened",
-                               view.image_path, image.width, image.height, view.file.width,
-                               view.file.height));
-}
-
-// image: of the file's size. Made a pinhole's or cut, then averaged.
-RgbaImage as_seen(const DatasetView& view, RgbaImage image, const Camera& camera) {
-  if (!is_pinhole(view.taken.lens)) {
-    image = undistorted(image, view.taken, view.used_px);
-  } else if (view.used_px.x != image.width || view.used_px.y != image.height) {
-    image = cropped(image, view.crop_px.x, view.crop_px.y, view.used_px.x, view.used_px.y);
-  }
-  if (image.width == camera.width && image.height == camera.height) return image;
-  return area_averaged(image, camera.width, camera.height);
-}
-
-// Alpha 1 where the mask is not black. Of the file's size, whatever size the mask has.
-RgbaImage mask_of(const DatasetView& view) {
-  const RgbaImage mask = read_photograph(view.mask_path);
-  const int width = view.file.width, height = view.file.height;
-  if (!of_one_shape(mask.width, mask.height, width, height)) {
-    throw InputError(fmt::format("{}: got a mask of {}x{} px, expected the shape of {}, {}x{} px",
-                                 view.mask_path, mask.width, mask.height, view.image_path, width,
-                                 height));
-  }
-  RgbaImage counts(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const auto at = [](int px, int size, int of) {
-        return static_cast<int>((static_cast<std::int64_t>(px) * of + of / 2) / size);
-      };
-      const glm::vec4& pixel = mask.at(at(x, width, mask.width), at(y, height, mask.height));
-      if (pixel.x > 0 || pixel.y > 0 || pixel.z > 0) counts.at(x, y).w = 1;
-    }
-  }
-  return counts;
-}
-
-}  // namespace
-
-RgbaImage load_view(const DatasetView& view, double downscale) {
-  const Camera camera = downscaled_camera(view, downscale);
-  return as_seen(view, checked(view, read_photograph(view.image_path)), camera);
-}
-
-std::vector<std::uint8_t> load_mask(const DatasetView& view, double downscale) {
-  constexpr float kWhole = 0.999F;  // but for rounding, no black has a part in it
-  if (view.mask_path.empty()) return {};
-  const RgbaImage seen = as_seen(view, mask_of(view), downscaled_camera(view, downscale));
-  std::vector<std::uint8_t> counts;
-  counts.reserve(seen.pixels.size());
-  for (const glm::vec4& pixel : seen.pixels) counts.push_back(pixel.w >= kWhole ? 1 : 0);
-  if (std::find(counts.begin(), counts.end(), 1) == counts.end()) {
-    throw InputError(
-        fmt::format("{}: got a mask that leaves no pixel, expected one or more that "
-                    "are not black",
-                    view.mask_path));
-  }
-  return counts;
 }
 
 }  // namespace sgs

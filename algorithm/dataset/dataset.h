@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "algorithm/dataset/undistortion.h"
+#include "algorithm/dataset/lens.h"
 #include "algorithm/image/image.h"
 #include "algorithm/scene/camera.h"
 #include "algorithm/scene/describe.h"
@@ -26,14 +26,10 @@ struct DatasetView {
   std::string image_path;  // PNG, JPEG, WebP or TIFF
   std::string mask_path;   // black where a pixel counts for nothing; empty where all count
   ImageHeader file;        // as the image lies in its file
-  // The camera of the used part of the file, whatever size the data set states, as many times
-  // smaller as the data set was opened. camera.id is the view's number in Dataset::views,
-  // camera.name its name.
+  // The camera of the file, whatever size the data set states, as many times smaller as the data
+  // set was opened. camera.id is the view's number in Dataset::views, camera.name its name.
   Camera camera;
-  // The used part of the file: all but the pixels that are cut off to have the principal point in
-  // the middle. Its top left pixel and its width and height; through a lens, those of the picture
-  // that is made of it.
-  glm::ivec2 crop_px{0}, used_px{0};
+  glm::ivec2 used_px{0};  // size of the file or, through a lens, of the picture that is made of it
   LensProjection taken;
   double seen = 1;  // share of the file's pixels that are used
   Split split = Split::kTrain;
@@ -78,7 +74,7 @@ std::vector<int> views_of(const Dataset& dataset, Split split);
 // `downscale` times smaller than their files, as downscaled_camera() makes them. The layout is
 // recognised by the files that are there. Test views are the data set's own, or every 8th in the
 // order of names, from the first, as the original takes them. Throws InputError: no such folder, no
-// layout or more than one (says what was looked for), what the readers in layouts.h and
+// layout or more than one (says what was looked for), what the readers in layout.h and
 // complete_view() refuse, a name twice, no view to train from, a downscale that is not from 1.
 Dataset open_dataset(const std::string& folder, const DatasetOptions& options = {});
 

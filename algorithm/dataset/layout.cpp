@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <vector>
 
-#include "algorithm/dataset/layouts.h"
 #include "algorithm/files/input_error.h"
 
 namespace sgs {

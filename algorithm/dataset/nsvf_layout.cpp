@@ -1,4 +1,4 @@
-// Neural Sparse Voxel Fields' layout (layouts.h).
+// Neural Sparse Voxel Fields' layout (layout.h).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,8 +6,7 @@
 #include <map>
 #include <set>
 
-#include "algorithm/dataset/layouts.h"
-#include "algorithm/dataset/stated_view.h"
+#include "algorithm/dataset/layout.h"
 #include "algorithm/dataset/text_fields.h"
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_file.h"
@@ -72,7 +71,7 @@ Pose read_pose(const std::string& path) {
   glm::dmat4 world_from_camera(1.0);
   for (int i = 0; i < 16; ++i)
     world_from_camera[i % 4][i / 4] = numbers[static_cast<std::size_t>(i)];
-  return opencv_pose(world_from_camera, path);
+  return opencv_pose(world_from_camera, path + ": pose");
 }
 
 Extent read_bounds(const std::string& path) {

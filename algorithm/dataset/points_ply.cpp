@@ -1,4 +1,4 @@
-// Both bodies of the points' PLY file (layouts.h).
+// Both bodies of the points' PLY file (layout.h).
 #include <fmt/format.h>
 
 #include <array>
@@ -7,8 +7,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "algorithm/dataset/layouts.h"
-#include "algorithm/dataset/stated_view.h"
+#include "algorithm/dataset/layout.h"
 #include "algorithm/dataset/text_fields.h"
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_file.h"

@@ -1,4 +1,4 @@
-// The checks of poses and points, and the changes of axes.
+// The checks of poses, cameras and points, and the changes of axes.
 #include "algorithm/dataset/stated_view.h"
 
 #include <fmt/format.h>
@@ -14,12 +14,16 @@
 namespace sgs {
 namespace {
 
-constexpr double kOrthonormalTolerance = 1e-3;  // as cameras.json has it
+constexpr double kOrthonormalTolerance = 1e-3;
+constexpr std::string_view kOpencvAxes = "from camera to world, columns right, down and forward";
+constexpr std::string_view kOpenglAxes = "from camera to world, columns right, up and backward";
+constexpr std::string_view kColmapAxes =
+    "from world to camera, whose axes are right, down and forward";
 
 void check_finite(const double* values, int count, const std::string& where) {
   for (int i = 0; i < count; ++i) {
     if (!std::isfinite(values[i])) {
-      throw InputError(fmt::format("{}: pose: got {}, expected finite numbers", where, values[i]));
+      throw InputError(fmt::format("{}: got {}, expected finite numbers", where, values[i]));
     }
   }
 }
@@ -48,9 +52,8 @@ Pose opencv_pose(const glm::dmat4& world_from_camera, const std::string& where) 
   for (int column = 0; column < 4; ++column) {
     const double expected = column == 3 ? 1 : 0;
     if (world_from_camera[column][3] != expected) {
-      throw InputError(
-          fmt::format("{}: pose: got {} as number {} of the last row, expected 0 0 0 1", where,
-                      world_from_camera[column][3], column));
+      throw InputError(fmt::format("{}: got {} as number {} of the last row, expected 0 0 0 1",
+                                   where, world_from_camera[column][3], column));
     }
   }
   const glm::dmat3 axes(world_from_camera);
@@ -60,20 +63,21 @@ Pose opencv_pose(const glm::dmat4& world_from_camera, const std::string& where) 
     for (int j = 0; j < 3; ++j) worst = std::max(worst, std::abs(gram[i][j] - (i == j ? 1 : 0)));
   }
   if (!(worst <= kOrthonormalTolerance)) {
-    throw InputError(fmt::format(
-        "{}: pose: got axes that are off by {:.3g}, expected them orthonormal within 1e-3", where,
-        worst));
+    throw InputError(
+        fmt::format("{}: got axes that are off by {:.3g}, expected columns orthonormal within 1e-3",
+                    where, worst));
   }
   if (glm::determinant(axes) < 0) {
-    throw InputError(fmt::format("{}: pose: got a mirrored frame, expected determinant +1", where));
+    throw InputError(fmt::format("{}: got a mirrored frame, expected determinant +1", where));
   }
-  return {glm::dvec3(world_from_camera[3]), axes};
+  return {glm::dvec3(world_from_camera[3]), axes, kOpencvAxes};
 }
 
 Pose opengl_pose(const glm::dmat4& world_from_camera, const std::string& where) {
   Pose pose = opencv_pose(world_from_camera, where);
   pose.world_from_camera[1] = -pose.world_from_camera[1];
   pose.world_from_camera[2] = -pose.world_from_camera[2];
+  pose.axes = kOpenglAxes;
   return pose;
 }
 
@@ -86,12 +90,50 @@ Pose colmap_pose(const glm::dquat& camera_from_world, const glm::dvec3& translat
   const double length = glm::length(camera_from_world);
   if (!(length > 0 && std::isfinite(length))) {
     throw InputError(
-        fmt::format("{}: pose: got a quaternion of length {}, expected about 1", where, length));
+        fmt::format("{}: got a quaternion of length {}, expected about 1", where, length));
   }
   // The inverse of a rotation is its transpose.
   const glm::dmat3 rotation = glm::mat3_cast(camera_from_world / length);
   const glm::dmat3 world_from_camera = glm::transpose(rotation);
-  return {-(world_from_camera * translation), world_from_camera};
+  return {-(world_from_camera * translation), world_from_camera, kColmapAxes};
+}
+
+void check_camera(const StatedView& view, const Projection& projection) {
+  check_lens(view.intrinsics.lens, view.where);
+  for (const double focal_px : {projection.focal.x, projection.focal.y}) {
+    if (!(focal_px > 0 && focal_px <= kMaxFocalPx)) {
+      throw InputError(fmt::format("{}: focal length: got {}, expected px above 0, at most {}",
+                                   view.where, focal_px, kMaxFocalPx));
+    }
+  }
+  const glm::dvec3& at = view.pose.position;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(at[axis]) <= kMaxCoordinate) continue;
+    throw InputError(
+        fmt::format("{}: position: got ({}, {}, {}), expected finite numbers of at most {}",
+                    view.where, at.x, at.y, at.z, kMaxCoordinate));
+  }
+}
+
+Camera camera_of(const StatedView& view, const Projection& projection) {
+  const glm::dvec2 size(projection.width, projection.height);
+  for (int axis = 0; axis < 2; ++axis) {
+    const double at = projection.centre[axis];
+    if (at >= 0 && at <= size[axis]) continue;
+    throw InputError(
+        fmt::format("{}: principal point: got {} at {} px of {}, expected it in the picture",
+                    view.where, axis == 0 ? "x" : "y", at, size[axis]));
+  }
+  Camera camera;
+  camera.width = projection.width;
+  camera.height = projection.height;
+  camera.focal_x = projection.focal.x;
+  camera.focal_y = projection.focal.y;
+  camera.position = view.pose.position;
+  camera.world_from_camera = view.pose.world_from_camera;
+  camera.principal_offset = projection.centre - 0.5 * size;
+  camera.axes = view.pose.axes;
+  return camera;
 }
 
 SfmPoint sfm_point(const glm::dvec3& position, const glm::u8vec3& colour,

@@ -11,10 +11,12 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "algorithm/dataset/dataset.h"
 #include "algorithm/dataset/lens.h"
+#include "algorithm/dataset/view_cameras.h"
 
 namespace sgs {
 
@@ -37,16 +39,18 @@ struct Projection {
 // point is in the middle, a focal length as the other one.
 Projection projection_of(const Intrinsics& stated, int image_width, int image_height);
 
-// Axes as in Camera.
+// As in Camera, which it becomes part of.
 struct Pose {
   glm::dvec3 position{0.0};
   glm::dmat3 world_from_camera{1.0};
+  std::string_view axes;
 };
 
 struct StatedView {
   std::string where;                 // file and entry, for messages
   std::vector<std::string> folders;  // where its image may be, below the data set's folder
   std::string image, mask;           // names as the file has them; mask: empty where there is none
+  std::optional<int> id;             // that the file gives the camera, whose name is then `image`
   Intrinsics intrinsics;
   Pose pose;
   Split split = Split::kTrain;  // where the data set has a split
@@ -62,12 +66,21 @@ struct StatedDataset {
   int left_out = 0;
   std::function<std::vector<SfmPoint>()> read_points;  // empty where there are none
   std::optional<Extent> bounds;
+  PathFacts path;
   std::map<std::string, int> unread_keys;  // names that say nothing here, and how often they occur
 };
 
+// Throws InputError that begins with view.where: a lens that check_lens() refuses, a focal length
+// or position that is not finite or beyond scene/gaussian_cloud.h.
+void check_camera(const StatedView& view, const Projection& projection);
+
+// The pinhole with this projection; check_camera() has passed it. Throws InputError that begins
+// with view.where: a principal point outside of the picture.
+Camera camera_of(const StatedView& view, const Projection& projection);
+
 // world_from_camera: a rigid motion, columns as glm has them, of a camera with x right, y down, z
-// forward axes. Throws InputError that begins with `where`: a number that is not finite, axes that
-// are not orthonormal within 1e-3 or mirror, a last row that is not 0 0 0 1.
+// forward axes. where: file, entry and key. Throws InputError that begins with it: a number that is
+// not finite, axes that are not orthonormal within 1e-3 or mirror, a last row that is not 0 0 0 1.
 Pose opencv_pose(const glm::dmat4& world_from_camera, const std::string& where);
 
 // The same for x right, y up, z backward axes (OpenGL, Blender).

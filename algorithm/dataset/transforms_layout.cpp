@@ -1,6 +1,7 @@
-// transforms.json and its kin (layouts.h).
+// transforms.json and its kin, as nerfstudio and instant-ngp write them.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -8,11 +9,9 @@
 #include <set>
 
 #include "algorithm/dataset/image_search.h"
-#include "algorithm/dataset/layouts.h"
-#include "algorithm/dataset/stated_view.h"
-#include "algorithm/dataset/transforms_frame.h"
+#include "algorithm/dataset/json_camera.h"
+#include "algorithm/dataset/layout.h"
 #include "algorithm/files/input_error.h"
-#include "algorithm/files/input_json.h"
 
 namespace sgs {
 namespace {
@@ -25,6 +24,35 @@ fs::path file_in(const std::string& folder, const char* name) { return fs::path(
 bool is_in(const std::string& folder, const char* name) {
   std::error_code unknown;
   return fs::exists(file_in(folder, name), unknown);
+}
+
+std::optional<double> number_at(const JsonPlace& frame, const char* key) {
+  const auto number = frame.find(key);
+  if (!number) return {};
+  return number->number();
+}
+
+std::optional<double> angle_at(const JsonPlace& frame, const char* key) {
+  const auto angle = frame.find(key);
+  if (!angle) return {};
+  if (!(angle->number() > 0 && angle->number() < M_PI)) angle->refuse("radians between 0 and pi");
+  return angle->number();
+}
+
+Intrinsics intrinsics_of(const JsonPlace& frame) {
+  Intrinsics out;
+  out.lens = lens_of(frame);
+  if (const auto width = frame.find("w")) out.width = size_px(*width);
+  if (const auto height = frame.find("h")) out.height = size_px(*height);
+  out.focal_x = number_at(frame, "fl_x");
+  out.focal_y = number_at(frame, "fl_y");
+  if (!out.focal_x) out.angle_x = angle_at(frame, "camera_angle_x");
+  if (!out.focal_y) out.angle_y = angle_at(frame, "camera_angle_y");
+  const bool known = out.focal_x || out.focal_y || out.angle_x || out.angle_y;
+  if (!known) frame.at("fl_x", "it, or camera_angle_x");
+  out.centre_x = number_at(frame, "cx");
+  out.centre_y = number_at(frame, "cy");
+  return out;
 }
 
 class TransformsFile {
@@ -44,60 +72,65 @@ class TransformsFile {
   void for_frames(const Use& use) const {
     const Json& frames = json_["frames"];
     for (std::size_t i = 0; i < frames.size(); ++i) {
-      const TransformsFrame frame(json_, frames[i], fmt::format("{}: frame {}", path_, i));
-      const auto file = frame.text("file_path");
-      if (!file) frame.fail("file_path", "nothing", "the path of an image");
-      use(*file, [&](Split split) { return view_of(frame, *file, split); });
+      const JsonPlace frame =
+          JsonPlace(fmt::format("{}: frame {}", path_, i), frames[i]).with_defaults(json_);
+      const std::string file = frame.at("file_path", "the path of an image").text();
+      use(file, [&](Split split) { return view_of(frame, file, split); });
     }
   }
 
   // The file of points that goes with the frames, where it is named or there.
   std::optional<std::string> points_path() const {
-    const auto found = json_.find("ply_file_path");
-    if (found == json_.end()) return points_file_in(folder_.string());
-    if (!found->is_string()) {
-      throw InputError(
-          fmt::format("{}: ply_file_path: got {}, expected a path", path_, shown(*found)));
-    }
-    return (folder_ / found->get<std::string>()).lexically_normal().string();
+    const auto file = JsonPlace(path_, json_).find("ply_file_path");
+    if (!file) return points_file_in(folder_.string());
+    return (folder_ / file->text()).lexically_normal().string();
   }
 
   // The names of views under `key`, if it is there: all of them of frames.
   std::optional<std::set<std::string>> names(const char* key) const {
-    const auto found = json_.find(key);
-    if (found == json_.end()) return {};
+    const auto list = JsonPlace(path_, json_).find(key);
+    if (!list) return {};
     std::set<std::string> of_frames, names;
     for_frames([&](const std::string& file, const auto&) { of_frames.insert(view_name(file)); });
-    for (const Json& path : *found) {
-      const std::string name = path.is_string() ? view_name(path.get<std::string>()) : "";
-      if (of_frames.count(name) == 0) {
-        throw InputError(fmt::format("{}: {}: got {}, expected paths of images as frames have them",
-                                     path_, key, shown(path)));
-      }
+    for (const JsonPlace& path : list->elements()) {
+      const std::string name = view_name(path.text());
+      if (of_frames.count(name) == 0) path.refuse("paths of images as frames have them");
       names.insert(name);
     }
     return names;
   }
 
   void count_unread_keys(std::map<std::string, int>& counts) const {
-    const auto count = [&](const Json& object) {
-      for (const auto& [key, value] : object.items()) {
-        if (!is_read_of_transforms(key)) ++counts[key];
-      }
-    };
-    count(json_);
-    for (const Json& frame : json_["frames"]) count(frame);
+    static const std::vector<std::string> kKeys = {"frames",
+                                                   "file_path",
+                                                   "mask_path",
+                                                   "transform_matrix",
+                                                   "ply_file_path",
+                                                   "train_filenames",
+                                                   "test_filenames",
+                                                   "val_filenames",
+                                                   "w",
+                                                   "h",
+                                                   "fl_x",
+                                                   "fl_y",
+                                                   "camera_angle_x",
+                                                   "camera_angle_y",
+                                                   "cx",
+                                                   "cy"};
+    count_unread(JsonPlace(path_, json_), kKeys, counts);
+    for (const Json& frame : json_["frames"]) count_unread(JsonPlace(path_, frame), kKeys, counts);
   }
 
  private:
-  StatedView view_of(const TransformsFrame& frame, const std::string& file, Split split) const {
+  StatedView view_of(const JsonPlace& frame, const std::string& file, Split split) const {
     StatedView view;
-    view.where = frame.where();
+    view.where = frame.name();
     view.folders = {""};
     view.image = file;
-    view.mask = frame.text("mask_path").value_or("");
-    view.intrinsics = transforms_intrinsics(frame);
-    view.pose = opengl_pose(frame.matrix("transform_matrix"), frame.where());
+    if (const auto mask = frame.find("mask_path")) view.mask = mask->text();
+    view.intrinsics = intrinsics_of(frame);
+    const JsonPlace matrix = frame.at("transform_matrix", "4 rows of 4 numbers");
+    view.pose = opengl_pose(matrix_of(matrix, 4), matrix.name());
     view.split = split;
     // Where frames do not say how large their images are, one angle of all is of one shape: others
     // were cut, and nobody says where.
@@ -174,7 +207,7 @@ StatedDataset read_transforms(const std::string& folder) {
   return dataset;
 }
 
-StatedDataset frames_of_transforms(const Json& document, const std::string& path) {
+StatedDataset views_of_transforms(const Json& document, const std::string& path) {
   const TransformsFile file(path, document);
   StatedDataset dataset;
   dataset.files = {path};

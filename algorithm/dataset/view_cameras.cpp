@@ -3,16 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "algorithm/dataset/image_search.h"
 #include "algorithm/dataset/layout.h"
-#include "algorithm/dataset/layouts.h"
-#include "algorithm/dataset/nerfstudio_path.h"
-#include "algorithm/dataset/view_image.h"
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_json.h"
 
@@ -31,33 +27,6 @@ Projection projection_in(const StatedView& view, const std::string& root) {
   if (states_size(view.intrinsics)) return projection_of(view.intrinsics, 0, 0);
   const ImageHeader image = ImageSearch(root, "").image(view).header;
   return projection_of(view.intrinsics, image.width, image.height);
-}
-
-void check_centre(const StatedView& view, const Projection& stated) {
-  for (int axis = 0; axis < 2; ++axis) {
-    const double at = stated.centre[axis];
-    const int size = axis == 0 ? stated.width : stated.height;
-    if (at >= 0 && at <= size) continue;
-    throw InputError(
-        fmt::format("{}: principal point: got {} at {} px of {}, expected it in the picture",
-                    view.where, axis == 0 ? "x" : "y", at, size));
-  }
-}
-
-Camera camera_of(const StatedView& view, const std::string& root) {
-  const Projection stated = projection_in(view, root);
-  check_camera(view, stated);
-  check_centre(view, stated);
-  Camera camera;
-  camera.name = view_name(slashed(view.image));
-  camera.width = stated.width;
-  camera.height = stated.height;
-  camera.focal_x = stated.focal.x;
-  camera.focal_y = stated.focal.y;
-  camera.principal_offset = stated.centre - 0.5 * glm::dvec2(stated.width, stated.height);
-  camera.position = view.pose.position;
-  camera.world_from_camera = view.pose.world_from_camera;
-  return camera;
 }
 
 std::string note_of(const StatedDataset& stated) {
@@ -84,10 +53,15 @@ std::string note_of(const StatedDataset& stated) {
 ViewCameras cameras_of_views(const StatedDataset& stated, const std::string& root) {
   ViewCameras out;
   for (const StatedView& view : stated.views) {
-    out.cameras.push_back(camera_of(view, root));
-    out.cameras.back().id = static_cast<int>(out.cameras.size()) - 1;
+    const Projection projection = projection_in(view, root);
+    check_camera(view, projection);
+    Camera camera = camera_of(view, projection);
+    camera.id = view.id.value_or(static_cast<int>(out.cameras.size()));
+    camera.name = view.id ? view.image : view_name(slashed(view.image));
+    out.cameras.push_back(std::move(camera));
   }
   out.files = stated.files;
+  out.path = stated.path;
   out.note = note_of(stated);
   return out;
 }
@@ -101,6 +75,18 @@ ViewCameras of_folder(const std::string& folder) {
   return cameras_of_views(stated, folder);
 }
 
+StatedDataset views_of(const Json& document, const std::string& path) {
+  if (!document.is_object() || document.contains("cameras")) {
+    return views_of_cameras_json(document, path);
+  }
+  if (document.contains("frames")) return views_of_transforms(document, path);
+  if (document.contains("camera_path")) return views_of_camera_path(document, path);
+  throw InputError(fmt::format(
+      "{}: got an object without cameras, frames and camera_path, expected an array of cameras as "
+      "cameras.json, a transforms.json or a camera path of nerfstudio",
+      path));
+}
+
 bool is_of_colmap(const fs::path& path) {
   const std::string extension = path.extension().string(), name = path.stem().string();
   return (extension == ".bin" || extension == ".txt") && (name == "cameras" || name == "images");
@@ -108,36 +94,13 @@ bool is_of_colmap(const fs::path& path) {
 
 }  // namespace
 
-ViewCameras view_cameras_of(const Json& document, const std::string& path) {
-  ViewCameras out;
-  out.files = {path};
-  if (document.is_object() && document.contains("frames")) {
-    const fs::path folder = fs::path(path).parent_path();
-    return cameras_of_views(frames_of_transforms(document, path),
-                            folder.empty() ? "." : folder.string());
-  }
-  if (document.is_object() && document.contains("camera_path")) {
-    out.cameras = nerfstudio_cameras_of(document, path);
-    return out;
-  }
-  if (document.is_object()) {
-    throw InputError(fmt::format(
-        "{}: got an object without frames and camera_path, expected an array of cameras as "
-        "cameras.json, a transforms.json or a camera path of nerfstudio",
-        path));
-  }
-  out.cameras = cameras_of(document, path);
-  return out;
-}
-
 ViewCameras read_view_cameras(const std::string& path) {
   std::error_code unknown;
   if (fs::is_directory(path, unknown)) return of_folder(path);
-  if (is_of_colmap(path)) {
-    const fs::path folder = fs::path(path).parent_path();
-    return of_folder(folder.empty() ? "." : folder.string());
-  }
-  return view_cameras_of(read_json(path), path);
+  const fs::path above = fs::path(path).parent_path();
+  const std::string folder = above.empty() ? "." : above.string();
+  if (is_of_colmap(path)) return of_folder(folder);
+  return cameras_of_views(views_of(read_json(path), path), folder);
 }
 
 }  // namespace sgs

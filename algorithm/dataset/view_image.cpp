@@ -1,13 +1,13 @@
-// Sizes, limits and crops.
+// Sizes, and the reading of images and masks.
 #include "algorithm/dataset/view_image.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
 
 #include "algorithm/files/input_error.h"
-#include "algorithm/scene/gaussian_cloud.h"
+#include "algorithm/image/image_io.h"
 
 namespace sgs {
 namespace {
@@ -27,23 +27,6 @@ void check_sizes(const StatedView& view, const FoundImage& found, const Projecti
   }
 }
 
-struct Cut {
-  int first = 0, size = 0;  // px
-};
-
-// Along one axis: what to use of `size` px so that `principal` is in the middle.
-Cut cut_around(const StatedView& view, const char* axis, double principal, int size) {
-  const double off_px = principal - 0.5 * size;
-  if (!(std::abs(off_px) < 0.25 * size)) {
-    throw InputError(
-        fmt::format("{}: principal point: got {} at {} px of {}, expected it in the middle half",
-                    view.where, axis, principal, size));
-  }
-  if (std::abs(off_px) <= 0.5) return {0, size};
-  const int less = static_cast<int>(std::lround(2 * std::abs(off_px)));
-  return {off_px > 0 ? less : 0, size - less};
-}
-
 }  // namespace
 
 bool of_one_shape(int width, int height, int stated_width, int stated_height) {
@@ -52,24 +35,6 @@ bool of_one_shape(int width, int height, int stated_width, int stated_height) {
   };
   return std::max(factor(width, stated_width, -1), factor(height, stated_height, -1)) <
          std::min(factor(width, stated_width, 1), factor(height, stated_height, 1));
-}
-
-void check_camera(const StatedView& view, const Projection& stated) {
-  check_lens(view.intrinsics.lens, view.where);
-  for (const double focal_px : {stated.focal.x, stated.focal.y}) {
-    if (!(focal_px > 0 && focal_px <= kMaxFocalPx)) {
-      throw InputError(fmt::format("{}: focal length: got {}, expected px above 0, at most {}",
-                                   view.where, focal_px, kMaxFocalPx));
-    }
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(std::abs(view.pose.position[axis]) <= kMaxCoordinate)) {
-      const glm::dvec3& at = view.pose.position;
-      throw InputError(
-          fmt::format("{}: position: got ({}, {}, {}), expected finite numbers of at most {}",
-                      view.where, at.x, at.y, at.z, kMaxCoordinate));
-    }
-  }
 }
 
 DatasetView complete_view(const StatedView& view, const FoundImage& found) {
@@ -87,24 +52,83 @@ DatasetView complete_view(const StatedView& view, const FoundImage& found) {
   out.split = view.split;
   out.taken = {view.intrinsics.lens, stated.focal * scale, stated.centre * scale};
   if (is_pinhole(view.intrinsics.lens)) {
-    const Cut x = cut_around(view, "x", out.taken.centre_px.x, file.width);
-    const Cut y = cut_around(view, "y", out.taken.centre_px.y, file.height);
-    out.crop_px = {x.first, y.first};
-    out.used_px = {x.size, y.size};
-    out.seen = static_cast<double>(x.size) / file.width * y.size / file.height;
+    out.used_px = {file.width, file.height};
+    out.camera = camera_of(view, stated);
+    out.camera.width = file.width;
+    out.camera.height = file.height;
+    out.camera.focal_x = out.taken.focal_px.x;
+    out.camera.focal_y = out.taken.focal_px.y;
+    out.camera.principal_offset *= scale;
   } else {
     const PinholePicture picture = pinhole_picture(out.taken, file.width, file.height, view.where);
     out.used_px = picture.size_px;
     out.seen = picture.seen;
+    out.camera = camera_of(view, {picture.size_px.x, picture.size_px.y, out.taken.focal_px,
+                                  0.5 * glm::dvec2(picture.size_px)});
   }
   out.camera.name = out.name;
-  out.camera.width = out.used_px.x;
-  out.camera.height = out.used_px.y;
-  out.camera.focal_x = out.taken.focal_px.x;
-  out.camera.focal_y = out.taken.focal_px.y;
-  out.camera.position = view.pose.position;
-  out.camera.world_from_camera = view.pose.world_from_camera;
   return out;
+}
+
+namespace {
+
+RgbaImage checked(const DatasetView& view, RgbaImage image) {
+  if (image.width == view.file.width && image.height == view.file.height) return image;
+  throw InputError(fmt::format("{}: got {}x{} px, expected {}x{} as when the data set was opened",
+                               view.image_path, image.width, image.height, view.file.width,
+                               view.file.height));
+}
+
+// image: of the file's size. Made a pinhole's, then averaged.
+RgbaImage as_seen(const DatasetView& view, RgbaImage image, const Camera& camera) {
+  if (!is_pinhole(view.taken.lens)) image = undistorted(image, view.taken, view.used_px);
+  if (image.width == camera.width && image.height == camera.height) return image;
+  return area_averaged(image, camera.width, camera.height);
+}
+
+// Alpha 1 where the mask is not black. Of the file's size, whatever size the mask has.
+RgbaImage mask_of(const DatasetView& view) {
+  const RgbaImage mask = read_photograph(view.mask_path);
+  const int width = view.file.width, height = view.file.height;
+  if (!of_one_shape(mask.width, mask.height, width, height)) {
+    throw InputError(fmt::format("{}: got a mask of {}x{} px, expected the shape of {}, {}x{} px",
+                                 view.mask_path, mask.width, mask.height, view.image_path, width,
+                                 height));
+  }
+  RgbaImage counts(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const auto at = [](int px, int size, int of) {
+        return static_cast<int>((static_cast<std::int64_t>(px) * of + of / 2) / size);
+      };
+      const glm::vec4& pixel = mask.at(at(x, width, mask.width), at(y, height, mask.height));
+      if (pixel.x > 0 || pixel.y > 0 || pixel.z > 0) counts.at(x, y).w = 1;
+    }
+  }
+  return counts;
+}
+
+}  // namespace
+
+RgbaImage load_view(const DatasetView& view, double downscale) {
+  const Camera camera = downscaled_camera(view, downscale);
+  return as_seen(view, checked(view, read_photograph(view.image_path)), camera);
+}
+
+std::vector<std::uint8_t> load_mask(const DatasetView& view, double downscale) {
+  constexpr float kWhole = 0.999F;  // but for rounding, no black has a part in it
+  if (view.mask_path.empty()) return {};
+  const RgbaImage seen = as_seen(view, mask_of(view), downscaled_camera(view, downscale));
+  std::vector<std::uint8_t> counts;
+  counts.reserve(seen.pixels.size());
+  for (const glm::vec4& pixel : seen.pixels) counts.push_back(pixel.w >= kWhole ? 1 : 0);
+  if (std::find(counts.begin(), counts.end(), 1) == counts.end()) {
+    throw InputError(
+        fmt::format("{}: got a mask that leaves no pixel, expected one or more that "
+                    "are not black",
+                    view.mask_path));
+  }
+  return counts;
 }
 
 }  // namespace sgs

@@ -1,14 +1,17 @@
-// The watch over nlohmann's parser.
+// The watch over nlohmann's parser, and the types of what it gives.
 #include "algorithm/files/input_json.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_file.h"
+#include "algorithm/files/nearest_name.h"
 
 namespace sgs {
 namespace {
@@ -86,6 +89,133 @@ Json read_json(const std::string& path) {
 
 std::string shown(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+namespace {
+
+// A long object or array by its size.
+std::string in_short(const Json& json) {
+  constexpr std::size_t kMostBytes = 100;
+  const char* kind = json.is_object() ? "an object" : json.is_array() ? "an array" : nullptr;
+  if (kind != nullptr && json.size() > kMostBytes)
+    return fmt::format("{} of {}", kind, json.size());
+  const std::string text = shown(json);
+  if (kind == nullptr || text.size() <= kMostBytes) return text;
+  return fmt::format("{} of {}", kind, json.size());
+}
+
+}  // namespace
+
+JsonPlace JsonPlace::below(const std::string& path, const Json& json) const {
+  JsonPlace place(where_, json);
+  place.path_ = path;
+  return place;
+}
+
+JsonPlace JsonPlace::with_defaults(const Json& defaults) const {
+  JsonPlace place = *this;
+  place.defaults_ = &defaults;
+  return place;
+}
+
+std::optional<JsonPlace> JsonPlace::find(const std::string& key) const {
+  if (!json_->is_object()) refuse("an object");
+  for (const Json* object : {json_, defaults_}) {
+    if (object == nullptr) continue;
+    const auto found = object->find(key);
+    if (found != object->end()) return below(path_.empty() ? key : path_ + "." + key, *found);
+  }
+  return {};
+}
+
+JsonPlace JsonPlace::at(const std::string& key, const std::string& expected) const {
+  if (auto found = find(key)) return *std::move(found);
+  below(path_.empty() ? key : path_ + "." + key, *json_).refuse("nothing", expected);
+}
+
+std::vector<std::pair<std::string, JsonPlace>> JsonPlace::members() const {
+  if (!json_->is_object()) refuse("an object");
+  std::vector<std::pair<std::string, JsonPlace>> all;
+  for (const auto& [key, value] : json_->items()) {
+    all.emplace_back(key, below(path_.empty() ? key : path_ + "." + key, value));
+  }
+  return all;
+}
+
+std::vector<std::string> JsonPlace::keys_beside(const std::vector<std::string>& known) const {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : json_->items()) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) keys.push_back(key);
+  }
+  return keys;
+}
+
+void JsonPlace::expect_only(const std::vector<std::string>& known) const {
+  const std::vector<std::string> others = keys_beside(known);
+  if (others.empty()) return;
+  throw InputError(fmt::format("{}: {}: unknown key, expected one of {}{}", name(), others[0],
+                               join(known), did_you_mean(others[0], known)));
+}
+
+std::vector<JsonPlace> JsonPlace::elements(const std::string& expected) const {
+  if (!json_->is_array()) refuse(expected);
+  std::vector<JsonPlace> all;
+  for (const Json& value : *json_) {
+    all.push_back(below(fmt::format("{}[{}]", path_, all.size()), value));
+  }
+  return all;
+}
+
+bool JsonPlace::flag() const {
+  if (!json_->is_boolean()) refuse("true or false");
+  return json_->get<bool>();
+}
+
+double JsonPlace::number() const {
+  if (!json_->is_number() || !std::isfinite(json_->get<double>())) refuse("a finite number");
+  return json_->get<double>();
+}
+
+std::string JsonPlace::text() const {
+  if (!json_->is_string()) refuse("a text");
+  return json_->get<std::string>();
+}
+
+std::int64_t JsonPlace::whole(std::int64_t least, std::int64_t most, const std::string& of) const {
+  const double number = json_->is_number() ? json_->get<double>() : NAN;
+  // Compared as double, which is exact to 2^53.
+  if (!(number >= static_cast<double>(least) && number <= static_cast<double>(most)) ||
+      number != std::floor(number)) {
+    refuse(fmt::format("a whole number{} from {} to {}", of, least, most));
+  }
+  return json_->is_number_integer() ? json_->get<std::int64_t>()
+                                    : static_cast<std::int64_t>(number);
+}
+
+std::int64_t JsonPlace::whole_or(const std::string& key, std::int64_t or_else,
+                                 std::int64_t most) const {
+  const auto found = find(key);
+  return found ? found->whole(0, most) : or_else;
+}
+
+std::vector<double> JsonPlace::numbers(std::optional<std::size_t> count) const {
+  const std::string expected = count ? fmt::format("{} numbers", *count) : "a list of numbers";
+  std::vector<double> values;
+  for (const JsonPlace& element : elements(expected)) values.push_back(element.number());
+  if (count && values.size() != *count) refuse(expected);
+  return values;
+}
+
+std::vector<std::string> JsonPlace::texts() const {
+  std::vector<std::string> values;
+  for (const JsonPlace& element : elements()) values.push_back(element.text());
+  return values;
+}
+
+void JsonPlace::refuse(const std::string& expected) const { refuse(in_short(*json_), expected); }
+
+void JsonPlace::refuse(const std::string& got, const std::string& expected) const {
+  throw InputError(fmt::format("{}: got {}, expected {}", name(), got, expected));
 }
 
 }  // namespace sgs

@@ -1,4 +1,4 @@
-// Backgrounds, area averages and crops of pictures with alpha.
+// Backgrounds and area averages of pictures with alpha.
 #include "algorithm/image/image.h"
 
 #include <fmt/format.h>
@@ -78,14 +78,6 @@ RgbaImage area_averaged(const RgbaImage& image, int width, int height) {
   RgbaImage out(width, height);
   average_rows(narrow.pixels.data(), to_width, 1, spans_of(image.height, height), to_width,
                out.pixels.data(), to_width, 1);
-  return out;
-}
-
-RgbaImage cropped(const RgbaImage& image, int left, int top, int width, int height) {
-  RgbaImage out(width, height);
-  for (int y = 0; y < height; ++y) {
-    std::copy_n(&image.at(left, top + y), width, &out.at(0, y));
-  }
   return out;
 }
 

@@ -45,9 +45,6 @@ Image over(const RgbaImage& image, const glm::vec3& background);
 // both are from 1 to the picture's own.
 RgbaImage area_averaged(const RgbaImage& image, int width, int height);
 
-// The rectangle of `width` x `height` px whose top left pixel is (left, top); it must lie inside.
-RgbaImage cropped(const RgbaImage& image, int left, int top, int width, int height);
-
 // The size of an image, which its file states before the pixels.
 struct ImageHeader {
   int width = 0, height = 0;  // px, from 1

@@ -93,8 +93,8 @@ GltfBuffers::GltfBuffers(const std::string& path) : path_(path), files_{path} {
     json_ = parse_json(file_, path);
   }
   root_.emplace(path_, json_);
-  const JsonFields asset = root_->object("asset");
-  if (asset.text("version") != "2.0") asset.refuse("version", "\"2.0\"");
+  const JsonPlace version = root_->at("asset").at("version");
+  if (version.text() != "2.0") version.refuse("\"2.0\"");
   const std::uint64_t buffer_count = count("buffers");
   for (std::uint64_t i = 0; i < buffer_count; ++i) buffers_.push_back(buffer_bytes(i));
 }
@@ -129,14 +129,14 @@ void GltfBuffers::read_glb() {
 }
 
 std::string_view GltfBuffers::buffer_bytes(std::uint64_t index) {
-  const JsonFields buffer = item("buffers", index);
-  const std::uint64_t size = buffer.whole("byteLength", kMostBytes);
+  const JsonPlace buffer = item("buffers", index);
+  const std::uint64_t size = buffer.at("byteLength").whole(0, kMostBytes);
   std::string_view bytes = binary_;
   if (buffer.has("uri")) {
-    const std::string uri = buffer.text("uri");
+    const std::string uri = buffer.at("uri").text();
     const std::size_t base64 = uri.find(";base64,");
     if (uri.compare(0, 5, "data:") == 0 && base64 != std::string::npos) {
-      others_.push_back(from_base64(buffer.origin(), std::string_view(uri).substr(base64 + 8)));
+      others_.push_back(from_base64(buffer.name(), std::string_view(uri).substr(base64 + 8)));
     } else {
       others_.push_back(open_folder_of(path_)->bytes(uri));
       files_.push_back((std::filesystem::path(path_).parent_path() / uri).string());
@@ -144,53 +144,58 @@ std::string_view GltfBuffers::buffer_bytes(std::uint64_t index) {
     bytes = others_.back();
   }
   if (bytes.size() < size) {
-    buffer.refuse("byteLength", fmt::format("at most the {} bytes that are there", bytes.size()));
+    buffer.at("byteLength")
+        .refuse(fmt::format("at most the {} bytes that are there", bytes.size()));
   }
   return bytes.substr(0, size);
 }
 
 std::uint64_t GltfBuffers::count(const std::string& name) const {
-  return root_->has(name) ? root_->list(name).size() : 0;
+  const auto list = root_->find(name);
+  if (!list) return 0;
+  if (!list->json().is_array()) list->refuse("a list");
+  return list->json().size();
 }
 
-JsonFields GltfBuffers::item(const std::string& name, std::uint64_t index) const {
+JsonPlace GltfBuffers::item(const std::string& name, std::uint64_t index) const {
   if (index >= count(name)) {
     throw InputError(fmt::format("{}: got {} {}, expected at most {}", path_, name, index,
                                  count(name) == 0 ? "none" : std::to_string(count(name) - 1)));
   }
-  return {fmt::format("{}: {} {}", path_, name, index), root_->list(name)[index]};
+  return {fmt::format("{}: {} {}", path_, name, index), root_->at(name).json()[index]};
 }
 
 std::string_view GltfBuffers::view(std::uint64_t index) const {
-  const JsonFields view = item("bufferViews", index);
+  const JsonPlace view = item("bufferViews", index);
   if (view.has("extensions")) {
-    view.refuse("extensions", "none: write the file without compression of its buffers");
+    view.at("extensions").refuse("none: write the file without compression of its buffers");
   }
-  const std::uint64_t buffer = view.whole("buffer");
+  const std::uint64_t buffer = view.at("buffer").whole();
   item("buffers", buffer);
   const std::string_view bytes = buffers_[buffer];
   const std::uint64_t offset = view.whole_or("byteOffset", 0, kMostBytes);
-  const std::uint64_t size = view.whole("byteLength", kMostBytes);
+  const std::uint64_t size = view.at("byteLength").whole(0, kMostBytes);
   if (offset > bytes.size() || size > bytes.size() - offset) {
-    view.refuse("byteLength", fmt::format("at most what buffer {} of {} bytes has from byte {} on",
-                                          buffer, bytes.size(), offset));
+    view.at("byteLength")
+        .refuse(fmt::format("at most what buffer {} of {} bytes has from byte {} on", buffer,
+                            bytes.size(), offset));
   }
   return bytes.substr(offset, size);
 }
 
 GltfAccessor GltfBuffers::accessor(std::uint64_t index, int components) const {
-  const JsonFields accessor = item("accessors", index);
-  if (accessor.has("sparse")) accessor.refuse("sparse", "none: write the file without it");
+  const JsonPlace accessor = item("accessors", index);
+  if (accessor.has("sparse")) accessor.at("sparse").refuse("none: write the file without it");
   const std::string type = components == 1 ? "SCALAR" : fmt::format("VEC{}", components);
-  if (accessor.text("type") != type) accessor.refuse("type", type);
+  if (accessor.at("type").text() != type) accessor.at("type").refuse(type);
   GltfAccessor found;
-  found.count = accessor.whole("count");
+  found.count = accessor.at("count").whole();
   found.components = components;
-  found.type = static_cast<std::uint32_t>(accessor.whole("componentType"));
-  found.normalised = accessor.has("normalized") && accessor.at("normalized") == true;
+  found.type = static_cast<std::uint32_t>(accessor.at("componentType").whole());
+  found.normalised = accessor.has("normalized") && accessor.at("normalized").flag();
   const std::uint64_t size = static_cast<std::uint64_t>(components) * bytes_of_type(found.type);
-  if (size == 0) accessor.refuse("componentType", "5120 to 5123, 5125 or 5126");
-  const std::uint64_t view_index = accessor.whole("bufferView");
+  if (size == 0) accessor.at("componentType").refuse("5120 to 5123, 5125 or 5126");
+  const std::uint64_t view_index = accessor.at("bufferView").whole();
   const std::string_view bytes = view(view_index);
   found.stride_bytes = item("bufferViews", view_index).whole_or("byteStride", size);
   const std::uint64_t offset = accessor.whole_or("byteOffset", 0, kMostBytes);
@@ -199,8 +204,8 @@ GltfAccessor GltfBuffers::accessor(std::uint64_t index, int components) const {
       found.stride_bytes >= size &&
       (found.count == 0 || (left >= size && (left - size) / found.stride_bytes >= found.count - 1));
   if (!fits) {
-    accessor.refuse("count", fmt::format("as many as buffer view {} of {} bytes holds", view_index,
-                                         bytes.size()));
+    accessor.at("count").refuse(
+        fmt::format("as many as buffer view {} of {} bytes holds", view_index, bytes.size()));
   }
   found.bytes = bytes.data() + offset;
   return found;

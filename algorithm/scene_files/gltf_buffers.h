@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "algorithm/scene_files/json_fields.h"
+#include "algorithm/files/input_json.h"
 
 namespace sgs {
 
@@ -33,10 +33,10 @@ class GltfBuffers {
   GltfBuffers& operator=(const GltfBuffers&) = delete;
 
   // Member number `index` of the list `name` of the file. Throws InputError where there is none.
-  JsonFields item(const std::string& name, std::uint64_t index) const;
+  JsonPlace item(const std::string& name, std::uint64_t index) const;
   std::uint64_t count(const std::string& name) const;
   const std::vector<std::string>& files() const { return files_; }  // that were opened
-  const JsonFields& root() const { return *root_; }
+  const JsonPlace& root() const { return *root_; }
 
   // Both as long as this lives. Throw InputError for what does not lie within its buffer, and for
   // compressed and sparse ones.
@@ -52,7 +52,7 @@ class GltfBuffers {
   std::string file_;
   std::string_view binary_;  // the binary chunk of a .glb
   nlohmann::ordered_json json_;
-  std::optional<JsonFields> root_;
+  std::optional<JsonPlace> root_;
   std::deque<std::string> others_;  // bytes that do not stand in the file itself
   std::vector<std::string_view> buffers_;
 };

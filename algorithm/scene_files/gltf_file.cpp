@@ -20,24 +20,24 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kExtension = "KHR_gaussian_splatting";
 constexpr const char* kSpzExtension = "KHR_gaussian_splatting_compression_spz_2";
 
-glm::dmat4 local_matrix(const JsonFields& node) {
+glm::dmat4 local_matrix(const JsonPlace& node) {
   if (node.has("matrix")) {
-    const std::vector<double> values = node.numbers("matrix", 16);  // column by column
+    const std::vector<double> values = node.at("matrix").numbers(16);  // column by column
     glm::dmat4 matrix(1);
     for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = values[i];
     return matrix;
   }
   glm::dmat4 matrix(1);
   if (node.has("translation")) {
-    const std::vector<double> t = node.numbers("translation", 3);
+    const std::vector<double> t = node.at("translation").numbers(3);
     matrix = glm::translate(matrix, glm::dvec3(t[0], t[1], t[2]));
   }
   if (node.has("rotation")) {
-    const std::vector<double> q = node.numbers("rotation", 4);
+    const std::vector<double> q = node.at("rotation").numbers(4);
     matrix = matrix * glm::mat4_cast(glm::normalize(glm::dquat(q[3], q[0], q[1], q[2])));
   }
   if (node.has("scale")) {
-    const std::vector<double> s = node.numbers("scale", 3);
+    const std::vector<double> s = node.at("scale").numbers(3);
     matrix = glm::scale(matrix, glm::dvec3(s[0], s[1], s[2]));
   }
   return matrix;
@@ -49,11 +49,11 @@ struct Attributes {
   std::vector<GltfAccessor> sh;  // one a coefficient
   int degree = 0;
 
-  Attributes(const GltfBuffers& buffers, const JsonFields& fields) {
+  Attributes(const GltfBuffers& buffers, const JsonPlace& fields) {
     const auto accessor = [&](const std::string& name, int components) {
-      const GltfAccessor found = buffers.accessor(fields.whole(name), components);
+      const GltfAccessor found = buffers.accessor(fields.at(name).whole(), components);
       if (name != "POSITION" && found.count != position.count) {
-        fields.refuse(name, fmt::format("an accessor of {} as POSITION", position.count));
+        fields.at(name).refuse(fmt::format("an accessor of {} as POSITION", position.count));
       }
       return found;
     };
@@ -65,7 +65,7 @@ struct Attributes {
     const auto name_of = [&](int band, int number) {
       return fmt::format("{}SH_DEGREE_{}_COEF_{}", prefix, band, number);
     };
-    if (fields.has(name_of(4, 0))) fields.refuse(name_of(4, 0), "SH of degree 3 at most");
+    if (fields.has(name_of(4, 0))) fields.at(name_of(4, 0)).refuse("SH of degree 3 at most");
     while (degree < 3 && fields.has(name_of(degree + 1, 0))) ++degree;
     for (int band = 0; band <= degree; ++band) {
       for (int k = 0; k < 2 * band + 1; ++k) sh.push_back(accessor(name_of(band, k), 3));
@@ -89,11 +89,10 @@ struct Attributes {
   }
 };
 
-void check_kind(const JsonFields& splats) {
+void check_kind(const JsonPlace& splats) {
   const auto check = [&](const char* name, const char* expected) {
-    if (splats.has(name) && splats.text(name) != expected) {
-      splats.refuse(name, fmt::format("\"{}\"", expected));
-    }
+    const auto found = splats.find(name);
+    if (found && found->text() != expected) found->refuse(fmt::format("\"{}\"", expected));
   };
   check("kernel", "ellipse");
   check("colorSpace", "srgb_rec709_display");
@@ -101,13 +100,13 @@ void check_kind(const JsonFields& splats) {
 }
 
 // What a file may ask of its reader. Quantised accessors are read as all others.
-void check_required(const JsonFields& root) {
+void check_required(const JsonPlace& root) {
   if (!root.has("extensionsRequired")) return;
   const std::vector<std::string> known = {kExtension, kSpzExtension, "KHR_mesh_quantization"};
-  for (const std::string& name : root.texts("extensionsRequired")) {
+  for (const std::string& name : root.at("extensionsRequired").texts()) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     throw InputError(fmt::format("{}: extensionsRequired: got {}, expected none but {}",
-                                 root.origin(), name, join(known)));
+                                 root.name(), name, join(known)));
   }
 }
 
@@ -124,7 +123,7 @@ class GltfReader {
       throw InputError(fmt::format("{}: got no scene, expected one", path_));
     }
     check_required(buffers_.root());
-    const JsonFields scene = buffers_.item("scenes", buffers_.root().whole_or("scene", 0));
+    const JsonPlace scene = buffers_.item("scenes", buffers_.root().whole_or("scene", 0));
     queue(scene, "nodes", axes);
     while (!queued_.empty()) {
       const auto [index, parent] = queued_.back();
@@ -144,19 +143,18 @@ class GltfReader {
 
  private:
   // The nodes that a member names, the first to be taken next.
-  void queue(const JsonFields& owner, const char* member, const glm::dmat4& parent) {
+  void queue(const JsonPlace& owner, const char* member, const glm::dmat4& parent) {
     if (!owner.has(member)) return;
-    const Json& list = owner.list(member);
-    for (auto node = list.rbegin(); node != list.rend(); ++node) {
-      if (!node->is_number_unsigned()) owner.refuse(member, "numbers of nodes");
-      queued_.emplace_back(node->get<std::uint64_t>(), parent);
+    const std::vector<JsonPlace> nodes = owner.at(member).elements();
+    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
+      queued_.emplace_back(node->whole(), parent);
     }
   }
 
   void add_node(std::uint64_t index, const glm::dmat4& parent) {
-    const JsonFields node = buffers_.item("nodes", index);
+    const JsonPlace node = buffers_.item("nodes", index);
     if (seen_[index]) {
-      throw InputError(fmt::format("{}: got it twice in the tree, expected once", node.origin()));
+      throw InputError(fmt::format("{}: got it twice in the tree, expected once", node.name()));
     }
     seen_[index] = true;
     const glm::dmat4 matrix = parent * local_matrix(node);
@@ -164,12 +162,13 @@ class GltfReader {
     queue(node, "children", matrix);
   }
 
-  void add_mesh(const JsonFields& node, const glm::dmat4& matrix) {
-    const JsonFields mesh = buffers_.item("meshes", node.whole("mesh"));
+  void add_mesh(const JsonPlace& node, const glm::dmat4& matrix) {
+    const JsonPlace mesh = buffers_.item("meshes", node.at("mesh").whole());
     std::uint64_t number = 0;
-    for (const Json& json : mesh.list("primitives")) {
-      const JsonFields primitive(fmt::format("{}: primitive {}", mesh.origin(), number++), json);
-      if (!primitive.has("extensions") || !primitive.object("extensions").has(kExtension)) {
+    for (const JsonPlace& element : mesh.at("primitives").elements()) {
+      const JsonPlace primitive(fmt::format("{}: primitive {}", mesh.name(), number++),
+                                element.json());
+      if (!primitive.has("extensions") || !primitive.at("extensions").has(kExtension)) {
         ++others_;
         continue;
       }
@@ -179,31 +178,31 @@ class GltfReader {
         throw InputError(
             fmt::format("{}: got a transform that does more than turn, move and scale alike, "
                         "expected it applied to the Gaussians",
-                        node.origin()));
+                        node.name()));
       }
-      append_scene(primitive.origin(), read_primitive(primitive, *placement), contents_);
+      append_scene(primitive.name(), read_primitive(primitive, *placement), contents_);
     }
   }
 
-  SceneContents read_primitive(const JsonFields& primitive, const Placement& placement) const {
-    const JsonFields extensions = primitive.object("extensions");
-    const JsonFields splats = extensions.object(kExtension);
+  SceneContents read_primitive(const JsonPlace& primitive, const Placement& placement) const {
+    const JsonPlace extensions = primitive.at("extensions");
+    const JsonPlace splats = extensions.at(kExtension);
     check_kind(splats);
-    const std::string& origin = primitive.origin();
+    const std::string origin = primitive.name();
     if (!splats.has("extensions")) {
-      const Attributes attributes(buffers_, primitive.object("attributes"));
+      const Attributes attributes(buffers_, primitive.at("attributes"));
       return decoded_scene(origin, attributes.position.count, attributes.degree, options_,
                            [&](std::uint64_t index, float* slots) {
                              attributes.fill(index, slots);
                              placement.apply(attributes.degree, slots);
                            });
     }
-    const JsonFields compression = splats.object("extensions");
+    const JsonPlace compression = splats.at("extensions");
     if (!compression.has(kSpzExtension)) {
-      splats.refuse("extensions", fmt::format("none, or {}", kSpzExtension));
+      splats.at("extensions").refuse(fmt::format("none, or {}", kSpzExtension));
     }
     const std::string_view spz =
-        buffers_.view(compression.object(kSpzExtension).whole("bufferView"));
+        buffers_.view(compression.at(kSpzExtension).at("bufferView").whole());
     SceneContents stored = read_spz_bytes(origin, spz, options_);
     if (!stored.axes.empty()) {
       throw InputError(fmt::format("{}: got an SPZ that states the axes {}, expected those of glTF",

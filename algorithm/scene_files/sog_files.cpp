@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "algorithm/files/input_error.h"
@@ -14,7 +15,6 @@
 #include "algorithm/scene/ply_header.h"
 #include "algorithm/scene_files/assembled_scene.h"
 #include "algorithm/scene_files/decoded_scene.h"
-#include "algorithm/scene_files/json_fields.h"
 #include "algorithm/scene_files/scene_forms.h"
 #include "algorithm/scene_files/stored_bytes.h"
 
@@ -28,19 +28,19 @@ using Codebook = std::array<float, 256>;
 constexpr std::uint64_t kPaletteColumns = 64;  // entries a row of the centroids' picture
 
 // What is beyond it is no number, which decoded_scene refuses.
-Codebook codebook_of(const JsonFields& fields) {
-  const std::vector<double> values = fields.numbers("codebook");
+Codebook codebook_of(const JsonPlace& fields) {
+  const std::vector<double> values = fields.at("codebook").numbers();
   Codebook book;
   book.fill(std::numeric_limits<float>::quiet_NaN());
-  if (values.size() > book.size()) fields.refuse("codebook", "at most 256 numbers");
+  if (values.size() > book.size()) fields.at("codebook").refuse("at most 256 numbers");
   std::transform(values.begin(), values.end(), book.begin(),
                  [](double value) { return static_cast<float>(value); });
   return book;
 }
 
-std::string file_name(const JsonFields& fields, std::size_t index) {
-  const std::vector<std::string> names = fields.texts("files");
-  if (names.size() <= index) fields.refuse("files", fmt::format("{} names or more", index + 1));
+std::string file_name(const JsonPlace& fields, std::size_t index) {
+  const std::vector<std::string> names = fields.at("files").texts();
+  if (names.size() <= index) fields.at("files").refuse(fmt::format("{} names or more", index + 1));
   return names[index];
 }
 
@@ -59,10 +59,10 @@ struct Centres {
   RgbaSamples low, high;
   std::array<double, 3> least, span;
 
-  Centres(const SceneParts& parts, const JsonFields& fields, std::uint64_t count)
+  Centres(const SceneParts& parts, const JsonPlace& fields, std::uint64_t count)
       : low(read_texture(parts, file_name(fields, 0), count)),
         high(read_texture(parts, file_name(fields, 1), count)) {
-    const std::vector<double> mins = fields.numbers("mins", 3), maxs = fields.numbers("maxs", 3);
+    const std::vector<double> mins = fields.at("mins").numbers(3), maxs = fields.at("maxs").numbers(3);
     for (std::size_t i = 0; i < 3; ++i) {
       least[i] = mins[i];
       span[i] = maxs[i] == mins[i] ? 1 : maxs[i] - mins[i];
@@ -97,18 +97,18 @@ struct Palette {
   RgbaSamples entries, labels;
   Codebook codebook;
 
-  Palette(const SceneParts& parts, const JsonFields& fields, std::uint64_t gaussians) {
-    const std::uint64_t bands = fields.whole("bands");
-    if (bands < 1 || bands > 3) fields.refuse("bands", "1 to 3");
+  Palette(const SceneParts& parts, const JsonPlace& fields, std::uint64_t gaussians) {
+    const std::uint64_t bands = fields.at("bands").whole();
+    if (bands < 1 || bands > 3) fields.at("bands").refuse("1 to 3");
     degree = static_cast<int>(bands);
     codebook = codebook_of(fields);
-    count = fields.whole("count");
+    count = fields.at("count").whole();
     const auto coeffs = static_cast<std::uint64_t>(rest_coeff_count(degree));
     const std::uint64_t rows = (count + kPaletteColumns - 1) / kPaletteColumns;
     entries = read_texture(parts, file_name(fields, 0), kPaletteColumns * coeffs * rows);
     if (static_cast<std::uint64_t>(entries.width) != kPaletteColumns * coeffs) {
       throw InputError(fmt::format("{}: {}: got {} px a row, expected {} for {} bands",
-                                   fields.origin(), file_name(fields, 0), entries.width,
+                                   fields.name(), file_name(fields, 0), entries.width,
                                    kPaletteColumns * coeffs, bands));
     }
     labels = read_texture(parts, file_name(fields, 1), gaussians);
@@ -133,30 +133,30 @@ struct Palette {
   }
 };
 
-void check_version(const JsonFields& meta) {
-  if (!meta.has("version") && meta.has("means")) {
-    meta.refuse("version", "2: splat-transform makes it of a SOG of version 1");
-  }
-  if (meta.whole("version") != 2) meta.refuse("version", "2");
+void check_version(const JsonPlace& meta) {
+  const char* expected =
+      meta.has("means") ? "2: splat-transform makes it of a SOG of version 1" : "2";
+  const JsonPlace version = meta.at("version", expected);
+  if (version.whole() != 2) version.refuse("2");
 }
 
 SceneContents read_parts(const SceneParts& parts, const std::string& meta_name,
                          const SceneReadOptions& options) {
   const std::string origin = parts.origin(meta_name);
   const Json json = parse_json(parts.bytes(meta_name), origin);
-  const JsonFields meta(origin, json);
+  const JsonPlace meta(origin, json);
   check_version(meta);
-  const std::uint64_t count = meta.whole("count");
-  const std::string model = meta.has("model") ? meta.text("model") : "default";
-  if (model == "2dgs") meta.refuse("model", "3D Gaussians");
-  const Centres centres(parts, meta.object("means"), count);
-  const RgbaSamples rotations = read_texture(parts, file_name(meta.object("quats"), 0), count);
-  const RgbaSamples scales = read_texture(parts, file_name(meta.object("scales"), 0), count);
-  const RgbaSamples colours = read_texture(parts, file_name(meta.object("sh0"), 0), count);
-  const Codebook scale_book = codebook_of(meta.object("scales"));
-  const Codebook colour_book = codebook_of(meta.object("sh0"));
+  const std::uint64_t count = meta.at("count").whole();
+  const std::string model = meta.has("model") ? meta.at("model").text() : "default";
+  if (model == "2dgs") meta.at("model").refuse("3D Gaussians");
+  const Centres centres(parts, meta.at("means"), count);
+  const RgbaSamples rotations = read_texture(parts, file_name(meta.at("quats"), 0), count);
+  const RgbaSamples scales = read_texture(parts, file_name(meta.at("scales"), 0), count);
+  const RgbaSamples colours = read_texture(parts, file_name(meta.at("sh0"), 0), count);
+  const Codebook scale_book = codebook_of(meta.at("scales"));
+  const Codebook colour_book = codebook_of(meta.at("sh0"));
   std::optional<Palette> palette;
-  if (meta.has("shN")) palette.emplace(parts, meta.object("shN"), count);
+  if (meta.has("shN")) palette.emplace(parts, meta.at("shN"), count);
 
   std::atomic<std::uint64_t> unturned{0}, unlabelled{0};
   SceneContents contents =
@@ -209,17 +209,17 @@ struct Level {
   Level(const std::string& path, const SceneReadOptions& options)
       : meta_path(named_file(path, kStreamedSogMeta)) {
     const Json json = read_json(meta_path);
-    const JsonFields meta(meta_path, json);
-    if (meta.whole_or("version", 1) != 1) meta.refuse("version", "1");
-    const std::uint64_t levels = meta.whole("lodLevels");
+    const JsonPlace meta(meta_path, json);
+    if (meta.whole_or("version", 1) != 1) meta.at("version").refuse("1");
+    const std::uint64_t levels = meta.at("lodLevels").whole();
     const std::uint32_t level = options.level.value_or(0);
     if (level >= levels) {
       throw InputError(fmt::format("{}: got level {}, expected one of its {} levels, from 0",
                                    meta_path, level, levels));
     }
-    const std::vector<std::string> names = meta.texts("filenames");
+    const std::vector<std::string> names = meta.at("filenames").texts();
     std::map<std::uint64_t, std::uint64_t> counts;  // of Gaussians, by the number of the file
-    add_counts(meta.object("tree"), std::to_string(level), names.size(), counts);
+    add_counts(meta.at("tree"), std::to_string(level), names.size(), counts);
     const std::unique_ptr<SceneParts> folder = open_folder_of(meta_path);
     for (const auto& [number, count] : counts) {
       folder->check_name(names[number]);
@@ -228,23 +228,23 @@ struct Level {
     notes.push_back(fmt::format("level {} of 0 to {}, 0 the finest", level, levels - 1));
     if (meta.has("environment")) {
       notes.push_back(fmt::format("its environment {} is of no level and is not drawn",
-                                  shown(meta.at("environment"))));
+                                  shown(meta.at("environment").json())));
     }
   }
 
  private:
-  static void add_counts(const JsonFields& node, const std::string& level, std::uint64_t file_count,
+  static void add_counts(const JsonPlace& node, const std::string& level, std::uint64_t file_count,
                          std::map<std::uint64_t, std::uint64_t>& counts) {
-    if (node.has("lods") && node.object("lods").has(level)) {
-      const JsonFields lods = node.object("lods");
-      const JsonFields part = lods.object(level);
-      if (part.whole("file") >= file_count) part.refuse("file", "one of filenames");
-      part.whole("offset");
-      counts[part.whole("file")] += part.whole("count");
+    if (node.has("lods") && node.at("lods").has(level)) {
+      const JsonPlace lods = node.at("lods");
+      const JsonPlace part = lods.at(level);
+      if (part.at("file").whole() >= file_count) part.at("file").refuse("one of filenames");
+      part.at("offset").whole();
+      counts[part.at("file").whole()] += part.at("count").whole();
     }
     if (!node.has("children")) return;
-    for (const Json& child : node.list("children")) {
-      add_counts(JsonFields(node.origin(), child), level, file_count, counts);
+    for (const JsonPlace& child : node.at("children").elements()) {
+      add_counts(child, level, file_count, counts);
     }
   }
 };
@@ -274,12 +274,12 @@ std::vector<std::string> files_of_sog(const std::string& path,
   const std::string meta_path = named_file(path, kSogMeta);
   if (meta_path.empty()) return {path};
   const Json json = read_json(meta_path);
-  const JsonFields meta(meta_path, json);
+  const JsonPlace meta(meta_path, json);
   std::vector<std::string> files = {meta_path};
   for (const auto& [member, count] : kPictures) {
     if (!meta.has(member)) continue;
     for (std::size_t i = 0; i < count; ++i) {
-      const std::string name = file_name(meta.object(member), i);
+      const std::string name = file_name(meta.at(member), i);
       files.push_back((fs::path(meta_path).parent_path() / name).string());
     }
   }

@@ -8,7 +8,6 @@ from __future__ import annotations
 import argparse
 import concurrent.futures
 import dataclasses
-import json
 import math
 import pathlib
 import statistics
@@ -18,6 +17,7 @@ from typing import IO
 
 from tables import Column
 from runs import run_arguments
+from runs.files import read_json
 from runs.keeper import Fitting, Keeper, KeptFittings
 from runs.scenes import Scene, find_scene, shared_folder
 from runs.simulations import (
@@ -333,11 +333,22 @@ def check_views(binary: pathlib.Path, sources: Sequence[Source], view: str) -> N
             seen.add(number)
 
 
+def camera_count(path: pathlib.Path) -> int:
+    """Of any form of JSON that the program reads. Raises ValueError."""
+    found = read_json(path)
+    if isinstance(found, dict):
+        lists = [found[key] for key in ("cameras", "frames", "camera_path") if key in found]
+        found = lists[0] if lists else None
+    if not isinstance(found, list):
+        raise ValueError(f"{path}: got no list, expected cameras of a form that render takes")
+    return len(found)
+
+
 def test_views(binary: pathlib.Path, source: Source) -> int:
     if isinstance(source, Scene):
         if not source.cameras:
             raise ValueError(f"{source.name}: brings its own cameras, expected a file of them")
-        return len(json.loads(pathlib.Path(source.cameras).read_text()))
+        return camera_count(pathlib.Path(source.cameras))
     lines = answered(binary, "info", [str(source)], f"info {source}").splitlines()
     (count,) = (line.split()[3] for line in lines if line.startswith("to test with "))
     return int(count)
@@ -352,7 +363,7 @@ def target_pictures(arguments: argparse.Namespace, subject: Subject) -> TargetPi
             words = [subject.dataset, *subject.photograph_words(), "--out", str(place)]
             answered(binary, "photographs", words, f"photographs of {subject.name}")
             return
-        for view in range(len(json.loads(pathlib.Path(subject.cameras).read_text()))):
+        for view in range(camera_count(pathlib.Path(subject.cameras))):
             words = [subject.scene, "--cameras", subject.cameras, "--view", str(view)]
             words += ["--size", subject.size, "--out", str(place / f"view_{view}.exr")]
             answered(binary, "render", words, f"render {subject.name}")

@@ -235,7 +235,13 @@ def made_sentence(facts: dict) -> str:
 
 
 def read_rows(folder: pathlib.Path, name: str) -> list[dict[str, str]]:
-    return list(csv.DictReader(read_text(folder / f"{name}.csv").splitlines()))
+    """Raises ValueError for a row of more or fewer cells than the head."""
+    path = folder / f"{name}.csv"
+    head, *rows = list(csv.reader(read_text(path).splitlines())) or [[]]
+    for number, row in enumerate(rows, start=2):
+        if len(row) != len(head):
+            raise ValueError(f"{path}:{number}: got {len(row)} cells, expected {len(head)}")
+    return [dict(zip(head, row)) for row in rows]
 
 
 def markdown_of(folder: pathlib.Path, name: str) -> str:

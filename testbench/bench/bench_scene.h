@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/scene/camera.h"
+#include "algorithm/dataset/view_cameras.h"
 #include "testbench/builtin/open_scene.h"
 
 namespace sgs {
@@ -14,7 +14,7 @@ namespace sgs {
 inline Scene load_bench_scene(const std::string& spec) {
   Scene scene = open_scene(spec);
   if (scene.cameras.empty()) {
-    scene.cameras = read_cameras(spec.substr(0, spec.rfind('.')) + ".json");
+    scene.cameras = read_view_cameras(spec.substr(0, spec.rfind('.')) + ".json").cameras;
   }
   return scene;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_json.h"
@@ -13,6 +14,21 @@ namespace sgs {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// Throws InputError unless `stated` has each number of the table: what it lacks would cost nothing.
+// Published points of the SRAM formula are in no cost. at: path of the keys.
+void check_stated(const Json& table, const std::string& at, const std::set<std::string>& stated,
+                  const std::string& path) {
+  for (const auto& [key, value] : table.items()) {
+    const std::string place = at.empty() ? key : at + "." + key;
+    if (place == "sram.points" || key == "source") continue;
+    if (value.is_object()) {
+      check_stated(value, place, stated, path);
+    } else if (stated.count(place) == 0) {
+      throw InputError(fmt::format("{}: {}: got nothing, expected it", path, place));
+    }
+  }
+}
 
 // at: path of the keys.
 void check_bands(const Json& json, const std::string& at, const std::string& path) {
@@ -78,7 +94,11 @@ Technology load_technology(const std::string& path) {
   if (technology.name.empty()) {
     throw InputError(fmt::format("{}: name: got none, expected that of the node", path));
   }
-  check_bands(parse_json(config_to_json(technology), path), "", path);
+  std::set<std::string> stated;
+  for (const ConfigOrigin& value : document.origins()) stated.insert(value.path);
+  const Json table = parse_json(config_to_json(technology), path);
+  check_stated(table, "", stated, path);
+  check_bands(table, "", path);
   return technology;
 }
 

@@ -50,8 +50,8 @@ void visit(ConfigVisitor& v, DieCost& cost);
 void visit(ConfigVisitor& v, MemoryInterfaceCost& cost);
 void visit(ConfigVisitor& v, Technology& technology);
 
-// Throws InputError, also for a table without a name and for a band that is not low <= middle <=
-// high.
+// Throws InputError, also for a table without a name or one of its numbers, and for a band that is
+// not low <= middle <= high.
 Technology load_technology(const std::string& path);
 
 }  // namespace sgs

@@ -38,10 +38,10 @@ struct SimulateArguments : SceneArguments {
   std::string out;
   std::string technology = data_file("technology_32nm.json");
   RunOptions run;
-  std::string timeline_groups;  // "A-B", "A", or empty
-  std::string path;             // the camera's path; empty: views
-  std::uint32_t frames = 60;    // along it
-  double frame_rate = 90;       // at which the energy a second is told
+  std::string timeline_groups;          // "A-B", "A", or empty
+  std::string path;                     // the camera's path; empty: views
+  std::optional<std::uint32_t> frames;  // along it
+  std::optional<double> frame_rate;     // at which the energy a second is told
   bool print_config = false;
   bool verbose = false;
   std::string command;  // the whole command line
@@ -127,7 +127,9 @@ PathJob path_job(const SimulateArguments& arguments, std::vector<Camera>& keys) 
   for (const std::string& note : sized.notes) fmt::print("{}\n", note);
   for (const auto& [number, camera] : sized.views)
     path.keys[static_cast<std::size_t>(number)] = camera;
-  return {path.name, frames_along(path, arguments.frames), arguments.frame_rate};
+  constexpr double kUsualRate = 90;
+  const double stated = path.facts.frame_rate.value_or(kUsualRate);
+  return {path.name, frames_along(path, arguments.frames), arguments.frame_rate.value_or(stated)};
 }
 
 // Prints the machine, the precision if it has one for blending, how the scene is stored, and which
@@ -243,10 +245,13 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   line.file("--dram-trace", arguments->run.dram_trace_path,
             "write every DRAM command; tb_dram --check verifies it");
   line.file("--path", arguments->path,
-            "cameras.json as key frames of a camera path, or builtin:path; every frame is drawn");
-  line.whole("--frames", arguments->frames, 1U, 100000U, "along the path; 60 if not given");
+            "cameras as key frames, builtin:path, or a camera path of nerfstudio; every frame is "
+            "drawn");
+  line.whole("--frames", arguments->frames, 1U, 100000U,
+             "along the path; if not given 60, or those that nerfstudio's states");
   line.real("--frame-rate", arguments->frame_rate, 1e-3, 1e6,
-            "frames a second at which the path's energy a second is told; 90 if not given");
+            "frames a second at which the path's energy a second is told; if not given 90, or as "
+            "nerfstudio's states");
   line.needs("--frames", "--path");
   line.needs("--frame-rate", "--path");
   line.file("--technology", arguments->technology, "table of energy and area");

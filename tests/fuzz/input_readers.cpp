@@ -2,7 +2,6 @@
 #include "algorithm/dataset/dataset.h"
 #include "algorithm/dataset/view_cameras.h"
 #include "algorithm/image/image_formats.h"
-#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_reader.h"
 #include "algorithm/scene_files/load_scene.h"
 #include "tests/algorithm/scene_files/made_scene_files.h"
@@ -70,7 +69,8 @@ const std::vector<FuzzedReader>& fuzzed_readers() {
       sog_reader("streamed_sog", "lod-meta.json", "lod-meta.json", "0_0/"),
       ksplat_reader(),
       scene_reader("gltf", "a.glb"),
-      {"cameras", "a.json", [](const std::string& folder) { read_cameras(folder + "/a.json"); }},
+      {"cameras", "a.json",
+       [](const std::string& folder) { read_view_cameras(folder + "/a.json"); }},
       {"png", "a.png",
        [](const std::string& folder) {
          read_png_header(folder + "/a.png");

@@ -60,7 +60,7 @@ void make_datasets(const std::string& corpus, const fs::path& scratch) {
 void make_pictures(const std::string& corpus) {
   const PhotographedScene scene = few_views();
   const RgbaImage picture = picture_of(scene, scene.cameras[0]);
-  const Image small = over(cropped(picture, 0, 0, 4, 3), glm::vec3(0.4f));
+  const Image small = over(area_averaged(picture, 4, 3), glm::vec3(0.4f));
   write_file(corpus, "png/good_rgba.png", rgba_png(picture));
   write_file(corpus, "png/good_rgb.png", grey_before_png(picture));
   write_file(corpus, "exr/good_zip.exr", encode_exr(small));

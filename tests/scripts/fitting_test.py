@@ -238,6 +238,13 @@ class Words(InFolder):
                             subjects.check_views(program, asked, views)
                     else:
                         subjects.check_views(program, asked, views)
+        for text, count in (('{"w": 4, "frames": [{}, {}]}', 2), ('{"camera_path": [{}]}', 1)):
+            other = self.folder / "transforms.json"
+            other.write_text(text)
+            self.assertEqual(subjects.camera_count(other), count)
+        other.write_text('{"w": 4}')
+        with self.assertRaisesRegex(ValueError, "transforms.json: got no list, expected cameras"):
+            subjects.camera_count(other)
         built_in = subjects.find_sources(["builtin:object"])
         with self.assertRaisesRegex(ValueError, "expected a file of them"):
             subjects.check_views(program, built_in, "all")

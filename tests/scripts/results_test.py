@@ -311,6 +311,10 @@ class Smallest(InFolder):
         status, line, _ = self.ended(smallest_machine, *words)
         self.assertEqual(status, 0, line)
         (row,) = tables.read_rows(self.folder, "smallest_machine")
+        torn = self.folder / "torn.csv"
+        torn.write_text("a,b\n1,2\n3\n")
+        with self.assertRaisesRegex(ValueError, "torn.csv:3: got 1 cells, expected 2$"):
+            tables.read_rows(self.folder, "torn")
         self.assertEqual(
             list(row.values()),
             ["1280x720", "90.0", "5.0", "3.8", "7.2", "2.5", "20.0", "90.8", "yard 1"]

@@ -16,8 +16,9 @@ TEST_CASE("bad input: cameras that cannot be drawn are named with their file, be
   };
   const Row rows[] = {
       {"16", "15", "1e30",
-       ": camera 1: position[1]: got 1e+30, expected a magnitude of at most 1e+18"},
-      {"16", "1e12", "0", ": camera 1: fx: got 1000000000000, expected at most 1000000000 px"},
+       ": camera 1: position: got (0, 1e+30, -5), expected finite numbers of at most 1e+18"},
+      {"16", "1e12", "0",
+       ": camera 1: focal length: got 1000000000000, expected px above 0, at most 1000000000"},
       {"65537", "15", "0", ": view 1: got 65537x9 px, expected at most 65536 a side, or --size"},
       {"200000", "15", "0", ": view 1: got 200000x9 px, expected at most 65536 a side, or --size"}};
   const auto camera = [](const Row& row) {
@@ -253,7 +254,7 @@ TEST_CASE("bad input: numbers, keys and values that mean nothing") {
             "printf '\nhfus' >p"},
            {"$SG sweep $B --out r --points p",
             2,
-            {"p:1: seed: unknown key, expected id, scene"},
+            {"p:1: seed: unknown key, expected one of id, scene"},
             "echo '{\"seed\": 1}' >p"},
            {"$SG sweep $B --out r --points p", 2, {"p:1: byte", "not JSON"}, "echo '{\"set\"' >p"},
            {"$SG sweep --out r --axis hfus=2", 2, {"SCENE: got none, expected a scene (.ply"}},

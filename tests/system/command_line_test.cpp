@@ -173,19 +173,25 @@ TEST_CASE("command line: cameras that see next to nothing are doubted") {
   const std::string simulate = "$SG simulate a.ply --cameras c --out o ";
   const std::string doubt =
       "view 0: 0.00 % of the Gaussians lie in the frame: is this a camera of this scene? Expected "
-      "position, and columns of rotation right, down and forward, in the scene's coordinates; "
+      "poses from camera to world, columns right, down and forward, in the scene's coordinates; "
       "--scene-axes turns a scene\n";
   const std::string behind = ply_of({"0 0 -9"}), before = ply_of({"0 0 0"});
-  for (const OptionRow& row : std::vector<OptionRow>{
-           {simulate, {doubt}, behind},
-           {simulate + ">t && ! grep 'in the frame' t", {}, before},
-           {"sed 's/^\\[\\(.*\\)\\]$/[\\1, \\1]/' c >p; " + simulate + "--path p --frames 2",
-            {"\nframe 0: 0.00 % of"},
-            behind},
-           {"$SG sweep a.ply --cameras c --axis hfus=2 --out r 2>&1", {"a.ply " + doubt}, behind},
-           {"$SG sweep a.ply --cameras c --axis hfus=2 --out r 2>&1 >t | wc -l",
-            {"0\n"},
-            before}}) {
+  for (
+      const OptionRow& row : std::vector<OptionRow>{
+          {simulate, {doubt}, behind},
+          {simulate + ">t; sed -n '/in the frame/,$p' t | grep ' equal '", {" equal "}, behind},
+          {"echo '{\"w\": 32, \"h\": 18, \"fl_x\": "
+           "30, \"frames\": [{\"file_path\": \"a\", \"transform_matrix\": [[1, 0, 0, 0], "
+           "[0, -1, 0, 0], [0, 0, -1, -5], [0, 0, 0, 1]]}]}' >n.json; $SG simulate a.ply --cameras "
+           "n.json --out o",
+           {"Expected poses from camera to world, columns right, up and backward, in"},
+           behind},
+          {simulate + ">t && ! grep 'in the frame' t", {}, before},
+          {"sed 's/^\\[\\(.*\\)\\]$/[\\1, \\1]/' c >p; " + simulate + "--path p --frames 2",
+           {"\nframe 0: 0.00 % of"},
+           behind},
+          {"$SG sweep a.ply --cameras c --axis hfus=2 --out r 2>&1", {"a.ply " + doubt}, behind},
+          {"$SG sweep a.ply --cameras c --axis hfus=2 --out r 2>&1 >t | wc -l", {"0\n"}, before}}) {
     check_said({row.line, row.words, row.before + kCameras});
   }
 }

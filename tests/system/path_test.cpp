@@ -2,6 +2,7 @@
 // stay in the machine.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -52,6 +53,45 @@ TEST_CASE("path: frames at its keys are the views, on every machine") {
     CHECK(path["frames"][1]["cycles"] != path["frames"][0]["cycles"]);
     CHECK(path["config"] == views.views()[0]["config"]);
   }
+}
+
+TEST_CASE("path: of nerfstudio every frame is drawn as it stands, at its rate") {
+  const ScratchFolder scratch;
+  const std::vector<Camera> cameras = make_builtin_scene(kPathScene).cameras;
+  json frames = json::array();
+  for (const int i : {0, 2, 1}) {
+    const Camera& camera = cameras[static_cast<std::size_t>(i)];
+    const glm::dmat3& axes = camera.world_from_camera;
+    json numbers = json::array();
+    for (int row = 0; row < 3; ++row) {
+      for (const double number :
+           {axes[0][row], -axes[1][row], -axes[2][row], camera.position[row]}) {
+        numbers.push_back(number);
+      }
+    }
+    for (const double number : {0.0, 0.0, 0.0, 1.0}) numbers.push_back(number);
+    frames.push_back({{"camera_to_world", numbers},
+                      {"fov", 2 * std::atan(0.5 * camera.height / camera.focal_y) * 180 / M_PI}});
+  }
+  const json file = {{"render_width", cameras[0].width},
+                     {"render_height", cameras[0].height},
+                     {"camera_path", frames},
+                     {"fps", 24},
+                     {"seconds", 0.125},
+                     {"is_cycle", true}};
+  std::ofstream(scratch.path("path.json")) << file;
+  const json path = run_path(scratch, {"--path", scratch.path("path.json")});
+  REQUIRE(path["frames"].size() == 3);
+  CHECK(path["summary"]["frame_rate"] == 24);
+  const json& middle = path["frames"][1]["camera"]["position"];
+  for (int axis = 0; axis < 3; ++axis) CHECK(middle[axis] == cameras[2].position[axis]);
+  const json other = run_path(
+      scratch, {"--path", scratch.path("path.json"), "--frames", "6", "--frame-rate", "30"});
+  CHECK(other["frames"].size() == 6);
+  CHECK(other["summary"]["frame_rate"] == 30);
+  // Closed: the last lies between the last and the first.
+  CHECK(other["frames"][5]["camera"]["position"][0].get<double>() ==
+        Approx(0.5 * (cameras[1].position.x + cameras[0].position.x)));
 }
 
 TEST_CASE("path: codebooks are loaded once") {

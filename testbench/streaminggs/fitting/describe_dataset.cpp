@@ -55,12 +55,10 @@ void print_dataset(const Dataset& dataset) {
     print_fact("left out", fmt::format("{} (for validation)", dataset.left_out));
   }
   print_fact("size", sizes(dataset));
-  if (const int cropped = count_if(dataset, [](const DatasetView& view) {
-        return is_pinhole(view.taken.lens) &&
-               (view.used_px.x != view.file.width || view.used_px.y != view.file.height);
+  if (const int beside = count_if(dataset, [](const DatasetView& view) {
+        return view.camera.principal_offset != glm::dvec2(0);
       })) {
-    print_fact("cropped",
-               fmt::format("{} views, to have the principal point in the middle", cropped));
+    print_fact("principal point", fmt::format("beside the middle in {} views", beside));
   }
   print_fact("with alpha", std::to_string(count_if(dataset, [](const DatasetView& view) {
                return view.file.has_alpha;

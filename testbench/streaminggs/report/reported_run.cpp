@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "algorithm/files/input_error.h"
-#include "testbench/streaminggs/report/json_place.h"
+#include "algorithm/files/input_json.h"
 #include "testbench/streaminggs/report/report.h"
 
 namespace sgs {
@@ -29,21 +30,19 @@ std::string in_words(const Json& value) {
 
 void flatten(const JsonPlace& place, const std::string& path,
              std::map<std::string, std::string>& into) {
-  place.each([&](const std::string& key, const JsonPlace& value) {
+  for (const auto& [key, value] : place.members()) {
     const std::string name = path.empty() ? key : path + "." + key;
     if (value.json().is_object()) {
       flatten(value, name, into);
     } else {
       into[name] = value.json().dump();
     }
-  });
+  }
 }
 
 void add_activity(const std::string& name, const JsonPlace& activity, ReportedView& view) {
   add(view.of(Quantity::kBusy), name, activity.at("busy_cycles").number());
-  const JsonPlace waits = activity.at("waits");
-  for (std::size_t i = 0; i < waits.entries(); ++i) {
-    const JsonPlace wait = waits.at(i);
+  for (const JsonPlace& wait : activity.at("waits").elements()) {
     const std::string what = wait.at("for").text();
     const double cycles = wait.at("cycles").number();
     if (what == "idle") continue;
@@ -54,11 +53,11 @@ void add_activity(const std::string& name, const JsonPlace& activity, ReportedVi
 }
 
 void add_units(const JsonPlace& units, ReportedView& view) {
-  units.each([&](const std::string& unit, const JsonPlace& of_unit) {
-    of_unit.at("activities").each([&](const std::string& name, const JsonPlace& activity) {
+  for (const auto& [unit, of_unit] : units.members()) {
+    for (const auto& [name, activity] : of_unit.at("activities").members()) {
       add_activity(unit + "." + name, activity, view);
-    });
-  });
+    }
+  }
   ReportedQuantity& waits = view.of(Quantity::kWaits);
   double activities = 0;
   for (const auto& [name, part] : view.of(Quantity::kBusy).parts) activities += part.copies;
@@ -71,33 +70,31 @@ void add_units(const JsonPlace& units, ReportedView& view) {
 
 void add_bytes(const JsonPlace& dram, ReportedQuantity& to) {
   to.whole = dram.at("bytes").number();
-  dram.at("bytes_by_region").each([&](const std::string& region, const JsonPlace& requesters) {
-    requesters.each([&](const std::string& requester, const JsonPlace& directions) {
-      directions.each([&](const std::string& direction, const JsonPlace& bytes) {
+  for (const auto& [region, requesters] : dram.at("bytes_by_region").members()) {
+    for (const auto& [requester, directions] : requesters.members()) {
+      for (const auto& [direction, bytes] : directions.members()) {
         add(to, region + ": " + requester + " " + direction, bytes.number());
-      });
-    });
-  });
+      }
+    }
+  }
 }
 
 // Keys of a section of costs: components, their total, and beside them what is none of these.
 void add_costs(const JsonPlace& section, const std::string& suffix, ReportedQuantity& to) {
   const std::string total = "total" + suffix;
   to.whole = section.at(total).number();
-  section.at("bands").each([&](const std::string& key, const JsonPlace&) {
-    if (key == total) return;
+  for (const auto& [key, band] : section.at("bands").members()) {
+    if (key == total) continue;
     add(to, key.substr(0, key.size() - std::min(suffix.size(), key.size())),
         section.at(key).number());
-  });
+  }
 }
 
 // Reports of earlier programs have no owners: the whole stays 0.
 void add_owners(const JsonPlace& area, ReportedQuantity& to) {
   if (!area.has("by_owner")) return;
   to.whole = area.at("with_memory_interface").at("middle").number();
-  area.at("by_owner").each([&](const std::string& owner, const JsonPlace& mm2) {
-    add(to, owner, mm2.number());
-  });
+  for (const auto& [owner, mm2] : area.at("by_owner").members()) add(to, owner, mm2.number());
 }
 
 void add_facts(const JsonPlace& report, ReportedView& view) {
@@ -153,15 +150,15 @@ ReportedView read_view(const JsonPlace& report) {
 // Unused memory is not built: what a key gives may be more than the machine has.
 void add_used(const JsonPlace& view, ReportedRun& run) {
   if (!view.has("sram")) return;
-  view.at("sram").each([&](const std::string& key, const JsonPlace& bytes) {
+  for (const auto& [key, bytes] : view.at("sram").members()) {
     const std::string path = "sram." + key;
     if (run.config.count(path) > 0) run.used[path] = bytes.json().dump();
-  });
+  }
 }
 
 void check_version(const JsonPlace& report) {
   const JsonPlace version = report.at("schema_version");
-  if (version.json() != kReportVersion) version.fail(fmt::format("{}", kReportVersion));
+  if (version.json() != kReportVersion) version.refuse(fmt::format("{}", kReportVersion));
 }
 
 }  // namespace
@@ -204,16 +201,15 @@ ReportedRun read_reported_run(const std::string& path) {
   JsonPlace first = report;
   if (report.has("views")) {
     const JsonPlace views = report.at("views");
-    for (std::size_t i = 0; i < views.entries(); ++i) run.views.push_back(read_view(views.at(i)));
-    if (run.views.empty()) views.fail("a finished view or more");
-    first = views.at(std::size_t{0});
+    for (const JsonPlace& view : views.elements()) run.views.push_back(read_view(view));
+    if (run.views.empty()) views.refuse("a finished view or more");
+    first = views.elements()[0];
   } else {
     run.views.push_back(read_view(report));
   }
   add_used(first, run);
-  const JsonPlace chosen = first.at("chosen");
-  for (std::size_t i = 0; i < chosen.entries(); ++i) {
-    run.chosen.insert(chosen.at(i).at("key").text());
+  for (const JsonPlace& choice : first.at("chosen").elements()) {
+    run.chosen.insert(choice.at("key").text());
   }
   std::sort(run.views.begin(), run.views.end(),
             [](const ReportedView& a, const ReportedView& b) { return a.view < b.view; });

@@ -16,8 +16,8 @@ constexpr double kLeastShareInFrame = 0.005;
 // Share of the Gaussians whose centres lie before the camera and within its frame, 0 to 1.
 double share_in_frame(const ActivatedCloud& cloud, const Camera& camera);
 
-// A line that doubts the camera and names the axes that are expected; empty where the share is
-// larger, or the cloud has no Gaussians.
+// A line that doubts the camera and names the axes of the form that it was read from; empty where
+// the share is larger, or the cloud has no Gaussians.
 std::string doubt_about(const Camera& camera, const ActivatedCloud& cloud);
 
 }  // namespace sgs

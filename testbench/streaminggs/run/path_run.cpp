@@ -144,6 +144,12 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
   double energy_j = 0, worst_psnr_db = std::numeric_limits<double>::infinity();
   std::size_t worst_picture = 0;
   bool equal = true;
+  for (std::size_t i = 0; i < job.frames.size(); ++i) {
+    const std::string doubt = doubt_about(job.frames[i], scene.given());
+    if (doubt.empty()) continue;
+    fmt::print("frame {}: {}\n", i, doubt);
+    break;  // the others likely say the same
+  }
   const bool all = setting.detail == Detail::kAll;
   std::optional<ProgressLine> progress;
   if (!all) progress.emplace();
@@ -199,12 +205,6 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
     fmt::print("every frame equals its reference picture\n");
   } else {
     fmt::print("PSNR: worst {:.2f} dB (frame {})\n", worst_psnr_db, worst_picture);
-  }
-  for (std::size_t i = 0; i < job.frames.size(); ++i) {
-    const std::string doubt = doubt_about(job.frames[i], scene.given());
-    if (doubt.empty()) continue;
-    fmt::print("frame {}: {}\n", i, doubt);
-    break;  // the others likely say the same
   }
   if (!equal) fmt::print("\na frame differs from the streaming renderer's\n");
   fmt::print("\nwritten to {}\n", out.path_report().parent_path().string());

@@ -59,8 +59,6 @@ void print_views(const std::vector<ViewResult>& views, const RunSetting& setting
   for (const ViewResult& view : views) {
     if (all || &view == &views.front()) fmt::print("\n");
     print_bottleneck(view);
-    const std::string doubt = doubt_about(view.camera, setting.scene.given());
-    if (!doubt.empty()) fmt::print("view {}: {}\n", view.view, doubt);
     if (!all && views.size() > 1) continue;
     print_energy(view);
     if (all) print_losses(view);
@@ -86,6 +84,10 @@ int run_views(const NumberedCameras& views, RunSetting& setting, const ResultFol
   std::vector<ViewResult> results;
   bool equal = true, all_refused = true;
   std::size_t named = 0;  // among failed
+  for (const auto& [number, camera] : views) {
+    const std::string doubt = doubt_about(camera, setting.scene.given());
+    if (!doubt.empty()) fmt::print("view {}: {}\n", number, doubt);
+  }
   print_table_head(setting.detail);
   for (const auto& [number, camera] : views) {
     try {

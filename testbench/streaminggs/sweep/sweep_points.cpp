@@ -44,62 +44,43 @@ std::vector<std::string> values_of_axis(const std::string& axis) {
   return assignments;
 }
 
-std::string text_at(const Json& object, const char* key, const std::string& place) {
-  const auto found = object.find(key);
-  if (found == object.end()) return {};
-  if (!found->is_string() || found->get_ref<const std::string&>().empty()) {
-    throw InputError(fmt::format("{}: {}: got {}, expected a text", place, key, shown(*found)));
-  }
-  return found->get<std::string>();
+std::string text_at(const JsonPlace& point, const char* key) {
+  const auto found = point.find(key);
+  if (!found) return {};
+  if (found->text().empty()) found->refuse("a text");
+  return found->text();
 }
 
-std::string view_at(const Json& object, const std::string& place) {
-  const auto found = object.find("view");
-  if (found != object.end() && found->is_number_unsigned()) return found->dump();
-  return text_at(object, "view", place);
+std::string view_at(const JsonPlace& point) {
+  const auto found = point.find("view");
+  if (found && found->json().is_number_unsigned()) return found->json().dump();
+  return text_at(point, "view");
 }
 
-std::optional<bool> truth_at(const Json& object, const char* key, const std::string& place) {
-  const auto found = object.find(key);
-  if (found == object.end()) return {};
-  if (!found->is_boolean()) {
-    throw InputError(
-        fmt::format("{}: {}: got {}, expected true or false", place, key, shown(*found)));
-  }
-  return found->get<bool>();
-}
-
-std::vector<std::string> overrides_at(const Json& object, const std::string& place) {
-  const auto found = object.find("set");
-  if (found == object.end()) return {};
-  if (!found->is_object()) {
-    throw InputError(fmt::format("{}: set: got {}, expected {{\"key.path\": value, ...}}", place,
-                                 shown(*found)));
-  }
+std::vector<std::string> overrides_at(const JsonPlace& point) {
+  const auto found = point.find("set");
+  if (!found) return {};
+  if (!found->json().is_object()) found->refuse("{\"key.path\": value, ...}");
   std::vector<std::string> overrides;
-  for (const auto& [key, value] : found->items()) overrides.push_back(key + "=" + shown(value));
+  for (const auto& [key, value] : found->members()) {
+    overrides.push_back(key + "=" + shown(value.json()));
+  }
   return overrides;
 }
 
-SweepPoint point_of_json(const std::string& line, const std::string& place) {
-  const Json object = parse_json(line, place);
-  for (const auto& [key, value] : object.items()) {
-    constexpr const char* kKeys[] = {"id",   "scene",  "cameras",      "view",
-                                     "size", "config", "fit_memories", "set"};
-    if (std::find(std::begin(kKeys), std::end(kKeys), key) != std::end(kKeys)) continue;
-    throw InputError(fmt::format(
-        "{}: {}: unknown key, expected id, scene, cameras, view, size, config, fit_memories or set",
-        place, key));
-  }
+SweepPoint point_of_json(const std::string& line, const std::string& origin) {
+  const Json json = parse_json(line, origin);
+  const JsonPlace place(origin, json);
+  place.expect_only({"id", "scene", "cameras", "view", "size", "config", "fit_memories", "set"});
   SweepPoint point;
-  if (const auto id = object.find("id"); id != object.end()) point.id = shown(*id);
-  point.scene = text_at(object, "scene", place);
-  point.cameras = text_at(object, "cameras", place);
-  point.view = view_at(object, place);
-  point.size = text_at(object, "size", place);
-  point.config = text_at(object, "config", place);
-  point.fit_memories = truth_at(object, "fit_memories", place);
-  point.overrides = overrides_at(object, place);
+  if (const auto id = place.find("id")) point.id = shown(id->json());
+  point.scene = text_at(place, "scene");
+  point.cameras = text_at(place, "cameras");
+  point.view = view_at(place);
+  point.size = text_at(place, "size");
+  point.config = text_at(place, "config");
+  if (const auto fit = place.find("fit_memories")) point.fit_memories = fit->flag();
+  point.overrides = overrides_at(place);
   return point;
 }
 
@@ -141,6 +122,10 @@ SweepPoint parse_point(const std::string& line, const std::string& place) {
       throw InputError(
           fmt::format("{}: got '{}', expected KEY=VALUE ..., or a JSON object", place, word));
     }
+    const auto same = [&](const std::string& other) { return key_of(other) == key_of(word); };
+    if (std::any_of(point.overrides.begin(), point.overrides.end(), same)) {
+      throw InputError(fmt::format("{}: got {} twice, expected once", place, key_of(word)));
+    }
     point.overrides.push_back(word);
   }
   return point;
@@ -148,9 +133,11 @@ SweepPoint parse_point(const std::string& line, const std::string& place) {
 
 std::string content_of(const std::string& line) {
   const std::size_t begin = line.find_first_not_of(kBlanks);
-  if (begin == std::string::npos) return {};
+  if (begin == std::string::npos || line[begin] == '#') return {};
   const bool json = line[begin] == '{';
-  const std::string said = line.substr(0, json ? std::string::npos : line.find('#'));
+  // A # in a word is part of it, as in the name of a file.
+  const std::size_t comment = std::min(line.find(" #", begin), line.find("\t#", begin));
+  const std::string said = line.substr(0, json ? std::string::npos : comment);
   const std::size_t end = said.find_last_not_of(kBlanks);
   return end == std::string::npos ? "" : said.substr(begin, end + 1 - begin);
 }

@@ -27,7 +27,8 @@ std::vector<SweepPoint> grid_of(const std::vector<std::string>& axes);
 // each of which may be left out. place: of the line, for messages. Throws InputError.
 SweepPoint parse_point(const std::string& line, const std::string& place);
 
-// The content of a list's line: all before a '#', without blanks around it; all of a JSON line.
+// The content of a list's line: all before a word that begins with '#', without blanks around it;
+// all of a JSON line.
 std::string content_of(const std::string& line);
 
 // The lines of a file that have content. Throws InputError, also where none has.

@@ -153,6 +153,8 @@ Json to_json(int view, const Outcome& base, const std::vector<Doubling>& doublin
 }
 
 Json run_view(const Base& base, int number, const Camera& camera) {
+  const std::string doubt = doubt_about(camera, base.scene.given());
+  if (!doubt.empty()) fmt::print("view {}: {}\n", number, doubt);
   const RunConfig config = base.variant("");
   const FrameJob job = config.design->job(base.scene.stored, camera);
   const GoldenFrame drawn = golden_of(base, config, job);
@@ -183,8 +185,6 @@ Json run_view(const Base& base, int number, const Camera& camera) {
   print(outcome, doublings);
   const std::string says = verdict(outcome, doublings);
   fmt::print("{}\n", says);
-  const std::string doubt = doubt_about(camera, base.scene.given());
-  if (!doubt.empty()) fmt::print("view {}: {}\n", number, doubt);
   std::fflush(stdout);
   return to_json(number, outcome, doublings, says);
 }

@@ -22,8 +22,10 @@ namespace {
 // is 0).
 glm::ivec2 pixel_of(const Camera& camera, const glm::dvec3& point) {
   const glm::dvec3 v = glm::transpose(camera.world_from_camera) * (point - camera.position);
-  return {static_cast<int>(std::lround(camera.focal_x * v.x / v.z + 0.5 * camera.width - 0.5)),
-          static_cast<int>(std::lround(camera.focal_y * v.y / v.z + 0.5 * camera.height - 0.5))};
+  const glm::dvec2 middle =
+      0.5 * glm::dvec2(camera.width, camera.height) - 0.5 + camera.principal_offset;
+  return {static_cast<int>(std::lround(camera.focal_x * v.x / v.z + middle.x)),
+          static_cast<int>(std::lround(camera.focal_y * v.y / v.z + middle.y))};
 }
 
 void check_pictures(const Dataset& dataset, const PhotographedScene& scene, double downscale,
@@ -119,7 +121,7 @@ TEST_CASE("dataset: each layout gives the cameras, pictures and split that were 
       CHECK(view.camera.height == 48);
       CHECK(view.camera.focal_x == Approx(60).epsilon(1e-12));
       CHECK(view.camera.focal_y == Approx(60).epsilon(1e-12));
-      CHECK(view.crop_px == glm::ivec2(0));
+      CHECK(view.camera.principal_offset == glm::dvec2(0));
     }
     check_pictures(dataset, scene, 1, row.colour_tolerance);
     check_pictures(dataset, scene, 2, row.colour_tolerance + 1);
@@ -132,12 +134,12 @@ TEST_CASE(
   PhotographedScene scene = made_scene();
   scene.width = 70;
   scene.height = 53;
-  scene.principal = {38, 26.5};  // 6 px are cut off
+  scene.principal = {38, 26.5};
   const ScratchFolder scratch;
   write_transforms(scratch.path(""), scene);
   const Dataset whole = open_dataset(scratch.path(""));
   for (const auto& [downscale, width, height] :
-       {std::tuple(1.0, 64, 53), {2.0, 32, 27}, {1.5, 43, 35}, {4.0, 16, 13}, {1e3, 1, 1}}) {
+       {std::tuple(1.0, 70, 53), {2.0, 35, 27}, {1.5, 47, 35}, {4.0, 18, 13}, {1e3, 1, 1}}) {
     INFO(downscale);
     const Dataset dataset = open_dataset(scratch.path(""), {downscale, "", ""});
     REQUIRE(dataset.views.size() == whole.views.size());
@@ -146,7 +148,8 @@ TEST_CASE(
       CHECK(camera.width == width);
       CHECK(camera.height == height);
       CHECK(camera.id == static_cast<int>(i));
-      CHECK(camera.focal_x == Approx(60.0 * width / 64));
+      CHECK(camera.focal_x == Approx(60.0 * width / 70));
+      CHECK(camera.principal_offset.x == Approx(3.0 * width / 70));
       CHECK(camera.focal_y == Approx(60.0 * height / 53));
       CHECK(camera.position == whole.views[i].camera.position);
       CHECK(dataset.views[i].split == whole.views[i].split);
@@ -241,8 +244,7 @@ TEST_CASE("dataset: points of COLMAP, bounds of NSVF, names without extension") 
   CHECK(open_dataset(nerf.path("")).views[4].name == "train/shot_04");
 }
 
-TEST_CASE(
-    "dataset: two focal lengths, and a principal point beside the middle comes there by a crop") {
+TEST_CASE("dataset: two focal lengths, and a principal point beside the middle, where it stays") {
   PhotographedScene scene = made_scene();
   scene.width = 70;
   scene.height = 53;
@@ -257,14 +259,12 @@ TEST_CASE(
       row.write(scratch.path(""), scene);
       const Dataset dataset = open_dataset(scratch.path(""));
       for (const DatasetView& view : dataset.views) {
-        CHECK(std::abs(principal.x - view.crop_px.x - 0.5 * view.camera.width) <= 0.5);
-        CHECK(std::abs(principal.y - view.crop_px.y - 0.5 * view.camera.height) <= 0.5);
-        CHECK(view.crop_px.x + view.camera.width <= 70);
-        CHECK(view.crop_px.y + view.camera.height <= 53);
+        CHECK(view.camera.principal_offset == principal - glm::dvec2(35, 26.5));
         CHECK(view.camera.focal_x == 60);
         CHECK(view.camera.focal_y == scene.focal_y);
-        CHECK(view.camera.width >= 64);
-        CHECK(view.camera.height >= 47);
+        CHECK(view.camera.width == 70);
+        CHECK(view.camera.height == 53);
+        CHECK(view.seen == 1);
       }
       check_pictures(dataset, scene, 1, row.colour_tolerance);
     }

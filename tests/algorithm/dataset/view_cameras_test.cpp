@@ -148,14 +148,58 @@ TEST_CASE("view cameras: lenses and names that are not read are said") {
         "applied_scale");
 }
 
+TEST_CASE("view cameras: what a camera path of nerfstudio says of itself, by table") {
+  struct Row {
+    const char *from, *to;
+    double frame_rate;
+    bool closed;
+    const char* note;
+  };
+  for (const Row& row : std::vector<Row>{
+           {"\"fps\": 24, \"seconds\": 1", "\"fps\": 24, \"seconds\": 0.4", 24, false, ""},
+           {"\"fps\": 24, \"seconds\": 1", "\"fps\": 24, \"is_cycle\": true", 24, true, ""},
+           {"\"fps\": 24, \"seconds\": 1", "\"seconds\": 0.5", 20, false, ""},
+           {"\"fps\": 24, ", "\"fps\": 24, ", 10, false,
+            "not read: fps of 24, where 10 frames in 1 s are 10 a second"},
+           {"\"seconds\": 1", "\"keyframes\": [], \"gain\": 2", 24, false, "not read: gain"}}) {
+    INFO(row.to);
+    const ScratchFolder scratch;
+    std::string text = path_of(made_scene());
+    const std::string from = row.from;
+    text.replace(text.find(from), from.size(), row.to);
+    const ViewCameras read = read_view_cameras(scratch.write("p.json", text));
+    check_made(read, made_scene());
+    CHECK(read.path.each_frame);
+    CHECK(read.path.frame_rate == row.frame_rate);
+    CHECK(read.path.closed == row.closed);
+    CHECK(read.note == row.note);
+  }
+}
+
+TEST_CASE("view cameras: the axes that each form states") {
+  const ScratchFolder scratch;
+  for (const auto& [write, axes] : std::vector<std::pair<WriteDataset, std::string>>{
+           {write_colmap_text, "from world to camera, whose axes are right, down and forward"},
+           {write_transforms, "from camera to world, columns right, up and backward"},
+           {write_cameras_json, "from camera to world, columns right, down and forward"},
+           {write_nsvf_focal, "from camera to world, columns right, down and forward"}}) {
+    const ScratchFolder set;
+    write(set.path(""), made_scene());
+    CHECK(read_view_cameras(set.path("")).cameras[3].axes == axes);
+  }
+  CHECK(read_view_cameras(scratch.write("p.json", path_of(made_scene()))).cameras[3].axes ==
+        "from camera to world, columns right, up and backward");
+}
+
 TEST_CASE("view cameras refuse: in a line with file, place, what is there and what was expected") {
   const ScratchFolder scratch;
   PhotographedScene scene = made_scene();
   const auto refusal = [&](const std::string& document) {
     return input_error_of([&] { read_view_cameras(scratch.write("p.json", document)); });
   };
-  CHECK_THAT(refusal("{}"), Contains("p.json: got an object without frames and camera_path"));
-  CHECK_THAT(refusal("3"), Contains("p.json: got number, expected an array of cameras"));
+  CHECK_THAT(refusal("{}"),
+             Contains("p.json: got an object without cameras, frames and camera_path"));
+  CHECK_THAT(refusal("3"), Contains("p.json: got 3, expected an array of cameras"));
   CHECK_THAT(refusal(path_of(scene, "\"camera_type\": \"equirectangular\", ")),
              Contains("p.json: camera_type: got equirectangular, expected perspective"));
   CHECK_THAT(refusal(path_of(scene, "\"crop\": {}, ")),
@@ -169,10 +213,19 @@ TEST_CASE("view cameras refuse: in a line with file, place, what is there and wh
   };
   CHECK_THAT(changed("\"render_width\": 64", "\"render_width\": 0"),
              Contains("p.json: render_width: got 0, expected a whole number of px"));
-  CHECK_THAT(changed("\"fov\": ", "\"fov\": 9"), Contains("p.json: camera_path[0]: fov: got 9"));
+  CHECK_THAT(changed("\"render_height\": 48", "\"was\": 48"),
+             Contains("p.json: render_height: got nothing, expected a whole number of px"));
+  CHECK_THAT(changed("\"fov\": ", "\"was\": "),
+             Contains("p.json: camera_path[0].fov: got nothing, expected degrees"));
+  CHECK_THAT(changed("\"fps\": 24", "\"fps\": 0"),
+             Contains("p.json: fps: got 0, expected above 0"));
+  CHECK_THAT(changed("\"seconds\": 1", "\"is_cycle\": 1"),
+             Contains("p.json: is_cycle: got 1, expected true or false"));
+  CHECK_THAT(changed("\"fov\": ", "\"fov\": 9"), Contains("p.json: camera_path[0].fov: got 9"));
   CHECK_THAT(changed("\"camera_to_world\": [", "\"camera_to_world\": [1, "),
-             Contains("camera_path[0]: camera_to_world: got 17 numbers, expected 16"));
-  CHECK_THAT(changed("0, 0, 0, 1]", "0, 0, 1, 1]"), Contains("camera_path[0]: pose: got 1"));
+             Contains("camera_path[0].camera_to_world: got 17 numbers, expected 16"));
+  CHECK_THAT(changed("0, 0, 0, 1]", "0, 0, 1, 1]"),
+             Contains("camera_path[0].camera_to_world: got 1"));
   CHECK_THAT(refusal(R"({"camera_path": 1, "render_width": 9, "render_height": 9})"),
              Contains("p.json: camera_path: got 1, expected an array"));
   CHECK_THAT(input_error_of([&] { read_view_cameras(scratch.path("none")); }), Contains("none"));

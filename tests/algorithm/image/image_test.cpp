@@ -1,4 +1,4 @@
-// image.h: backgrounds, averages over areas, crops.
+// image.h: backgrounds, averages over areas.
 #include "algorithm/image/image.h"
 
 #include <catch2/catch.hpp>
@@ -70,14 +70,4 @@ TEST_CASE("rgba image: what is transparent has no colour to give when averaged")
   CHECK(small.at(0, 0) == glm::vec4(0.5f, 0.25f, 0, 0.5f));
   CHECK(over(small, glm::vec3(0)).at(0, 0) == glm::vec3(0.5f, 0.25f, 0));
   CHECK(over(small, glm::vec3(1, 0, 1)).at(0, 0) == glm::vec3(1, 0.25f, 0.5f));
-}
-
-TEST_CASE("rgba image: a crop is the rectangle that was asked for") {
-  const RgbaImage image = random_image(9, 7);
-  const RgbaImage part = cropped(image, 2, 3, 5, 4);
-  REQUIRE(part.width == 5);
-  REQUIRE(part.height == 4);
-  for (int y = 0; y < 4; ++y) {
-    for (int x = 0; x < 5; ++x) CHECK(part.at(x, y) == image.at(x + 2, y + 3));
-  }
 }

@@ -6,10 +6,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "algorithm/dataset/view_cameras.h"
 #include "algorithm/order/group_visits.h"
 #include "algorithm/render/group_state.h"
 #include "algorithm/render/paper_renderer.h"
-#include "algorithm/scene/camera.h"
 #include "algorithm/splat/activate.h"
 #include "testbench/builtin/open_scene.h"
 #include "tests/algorithm/voxel/ray_walk.h"
@@ -124,7 +124,8 @@ void check_order(const std::string& spec, const std::vector<Camera>& cameras, fl
 }
 
 void check_order_of_shared(const std::string& name) {
-  check_order(shared_scene(name), read_cameras(shared_path("cameras/" + name + ".json")), 0);
+  check_order(shared_scene(name),
+              read_view_cameras(shared_path("cameras/" + name + ".json")).cameras, 0);
 }
 
 }  // namespace sgs::test

@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 #include <cstring>
 
+#include "algorithm/dataset/view_cameras.h"
 #include "algorithm/render/reference_renderer.h"
-#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_reader.h"
 #include "algorithm/splat/activate.h"
 #include "tests/algorithm/voxel/hard_scenes.h"
@@ -68,7 +68,7 @@ void fuzz_exact_order(unsigned first_seed, unsigned scenes) {
 }
 
 void check_exact_on_shared(const std::string& name) {
-  const auto cameras = read_cameras(shared_path("cameras/" + name + ".json"));
+  const auto cameras = read_view_cameras(shared_path("cameras/" + name + ".json")).cameras;
   const ActivatedCloud cloud = activate(read_ply(shared_scene(name)).cloud);
   ExactOrderConfig shipped;
   shipped.group = square_of(128);

@@ -7,10 +7,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "algorithm/dataset/view_cameras.h"
 #include "algorithm/image/quality.h"
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/render/reference_renderer.h"
-#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_reader.h"
 #include "algorithm/splat/activate.h"
 #include "tests/algorithm/render/nearest_tie_renderer.h"
@@ -41,7 +41,7 @@ class Range {
 
 void check_paper_quality(const PaperScene& scene) {
   constexpr int kGroupPx = 64;
-  const auto cameras = read_cameras(shared_path("cameras/" + scene.name + ".json"));
+  const auto cameras = read_view_cameras(shared_path("cameras/" + scene.name + ".json")).cameras;
   const auto [cloud, grid] =
       by_voxels(activate(read_ply(shared_scene(scene.name)).cloud), scene.voxel_size);
   Range first_met, nearest;

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "algorithm/scene/camera.h"
+#include "algorithm/dataset/view_cameras.h"
 #include "algorithm/scene/ply_reader.h"
 #include "algorithm/splat/activate.h"
 #include "tests/algorithm/render/against_double.h"
@@ -13,13 +13,13 @@
 namespace sgs::test {
 
 inline void check_scene_against_double(const std::string& name) {
-  const auto cameras = read_cameras(shared_path("cameras/" + name + ".json"));
+  const auto cameras = read_view_cameras(shared_path("cameras/" + name + ".json")).cameras;
   const GaussianCloud cloud = read_ply(shared_scene(name)).cloud;
   for (const Camera& camera : cameras) check_against_double(name, camera, cloud);
 }
 
 inline void check_scene_against_golden(const std::string& name) {
-  const auto cameras = read_cameras(shared_path("cameras/" + name + ".json"));
+  const auto cameras = read_view_cameras(shared_path("cameras/" + name + ".json")).cameras;
   const std::string golden = shared_path("golden/" + name + ".csv");
   const ActivatedCloud cloud = activate(read_ply(shared_scene(name)).cloud);
   for (const Camera& camera : cameras) check_against_golden(golden, camera, cloud);

@@ -5,12 +5,16 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "tests/support/scratch_folder.h"
 
 namespace sgs::test {
 namespace {
+
+using nlohmann::json;
 
 constexpr Band same(double value) { return {value, value, value}; }
 
@@ -162,24 +166,44 @@ TEST_CASE("cost: parts that the table does not have are refused by name") {
 }
 
 TEST_CASE("cost: tables that say less than they must, or bands out of order, are refused by file") {
-  struct Row {
-    const char *table, *expected;
-  };
-  for (const auto& [table, expected] :
-       {Row{"{}", ": name: got none, expected that of the node"},
-        Row{R"({"name": "x", "parts": {"lane": {"pj": {"low": 2, "middle": 1, "high": 3}}}})",
-            ": parts.lane.pj: got low 2, middle 1, high 3"},
-        Row{R"({"name": "x", "sram": {"macro": {"low": 1, "middle": 2}}})",
-            ": sram.macro: got low 1, middle 2, high 0"}}) {
-    const ScratchFolder scratch;
-    scratch.write("table.json", table);
-    const std::string path = scratch.path("table.json");
-    CHECK(input_error_of([&] { load_technology(path); }).find(path + expected) == 0);
-  }
   const ScratchFolder scratch;
-  scratch.write("table.json", R"({"name": "x"})");
-  const Technology without_parts = load_technology(scratch.path("table.json"));
-  CHECK(input_error_of([&] { area_of(frame(), without_parts); }).find(without_parts.path) == 0);
+  const std::string path = scratch.path("table.json");
+  // The shipped table with one value changed, or without it.
+  const auto changed = [&](const std::string& place, const json& value) {
+    json table = json::parse(bytes_of(SGS_TECHNOLOGY));
+    const json::json_pointer at(place);
+    if (value.is_null()) {
+      table[at.parent_pointer()].erase(at.back());
+    } else {
+      table[at] = value;
+    }
+    scratch.write("table.json", table.dump());
+  };
+  struct Row {
+    const char* place;
+    json value;
+    const char* expected;
+  };
+  for (const Row& row : std::vector<Row>{
+           {"/name", "", ": name: got none, expected that of the node"},
+           {"/parts/fp32_lane/pj/low", 99, ": parts.fp32_lane.pj: got low 99, middle 2.99, high"},
+           {"/parts/fp32_lane/pj", {}, ": parts.fp32_lane.pj.low: got nothing, expected it"},
+           {"/sram/macro/high", {}, ": sram.macro.high: got nothing"},
+           {"/die", {}, ": die.clock_pj_mm2_cycle.low: got nothing"},
+           {"/memory_interface/counted", {}, ": memory_interface.counted: got nothing"}}) {
+    changed(row.place, row.value);
+    const std::string said = input_error_of([&] { load_technology(path); });
+    INFO(said);
+    CHECK(said.find(path + row.expected) == 0);
+  }
+  // What no cost is made of may be left out.
+  changed("/sram/points", {});
+  CHECK(load_technology(path).sram.points.empty());
+  changed("/parts/fp32_lane/source", {});
+  CHECK(load_technology(path).part("fp32_lane").source.empty());
+  Technology without_parts = load_technology(path);
+  without_parts.parts.clear();
+  CHECK(input_error_of([&] { area_of(frame(), without_parts); }).find(path) == 0);
 }
 
 TEST_CASE("cost: components are written in snake case") {

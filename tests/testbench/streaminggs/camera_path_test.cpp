@@ -53,7 +53,8 @@ TEST_CASE("camera path: frames between keys, by table") {
                                          {true, 3, {0, 2, 6}},
                                          {true, 6, {0, 1, 2, 4, 6, 3}}}) {
     INFO(row.closed << " " << row.count);
-    const CameraPath path{"p", {at_x(0, 100), at_x(2, 200), at_x(6, 400)}, row.closed, ""};
+    const CameraPath path{
+        "p", {at_x(0, 100), at_x(2, 200), at_x(6, 400)}, {row.closed, false, {}}, ""};
     const std::vector<Camera> frames = frames_along(path, row.count);
     REQUIRE(frames.size() == row.xs.size());
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -65,7 +66,7 @@ TEST_CASE("camera path: frames between keys, by table") {
       CHECK(frames[i].id == static_cast<int>(i));
     }
   }
-  CameraPath mixed{"p", {at_x(0), at_x(1)}, false, ""};
+  CameraPath mixed{"p", {at_x(0), at_x(1)}, {}, ""};
   mixed.keys[1].height = 99;
   CHECK(input_error_of([&] { frames_along(mixed, 3); }) ==
         "p: camera 1: got 640x99 px, expected the 640x360 of the first, or --size for all");
@@ -79,9 +80,9 @@ TEST_CASE("camera path: files and built-in ways, by table") {
     return read_camera_path(scratch.write("path.json", document.dump()), scene);
   };
   CHECK(read(cameras).keys.size() == 3);
-  CHECK_FALSE(read(cameras).closed);
+  CHECK_FALSE(read(cameras).facts.closed);
   CHECK(read({{"cameras", cameras}}).keys[2].position.x == 6);
-  CHECK(read({{"cameras", cameras}, {"closed", true}}).closed);
+  CHECK(read({{"cameras", cameras}, {"closed", true}}).facts.closed);
   const auto pose = [](double x) {
     return json{{"camera_to_world", {1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}, {"fov", 90}};
   };
@@ -89,9 +90,16 @@ TEST_CASE("camera path: files and built-in ways, by table") {
                                          {"render_height", 360},
                                          {"camera_path", {pose(0), pose(3), pose(5)}}});
   REQUIRE(of_nerfstudio.keys.size() == 3);
-  CHECK_FALSE(of_nerfstudio.closed);
+  CHECK_FALSE(of_nerfstudio.facts.closed);
   CHECK(of_nerfstudio.keys[1].position.x == 3);
   CHECK(of_nerfstudio.keys[1].focal_x == Approx(180));
+  // It states each frame; who wants another number has them between these.
+  const std::vector<Camera> stated = frames_along(of_nerfstudio, {});
+  REQUIRE(stated.size() == 3);
+  CHECK(stated[1].position.x == 3);
+  CHECK(stated[1].name == "frame_00001");
+  CHECK(frames_along(of_nerfstudio, 5)[1].position.x == 1.5);
+  CHECK(frames_along(read(cameras), {}).size() == 60);
   std::filesystem::create_directory(scratch.path("set"));
   scratch.write("set/cameras.json", cameras.dump());
   CHECK(read_camera_path(scratch.path("set"), "scene.ply").keys.size() == 3);
@@ -104,12 +112,13 @@ TEST_CASE("camera path: files and built-in ways, by table") {
   for (const Row& row : std::vector<Row>{
            {json::array(), "got 0 cameras, expected two or more"},
            {one, "got 1 cameras, expected two or more"},
-           {3, "got number, expected an array of cameras"},
-           {json::object(), "cameras: got nothing, expected that key"},
-           {{{"cameras", 3}}, "cameras: got number, expected an array"},
+           {3, "got 3, expected an array of cameras"},
+           {json::object(), "got an object without cameras, frames and camera_path"},
+           {{{"cameras", 3}}, "cameras: got 3, expected an array"},
            {{{"cameras", cameras}, {"closed", 1}}, "closed: got 1, expected true or false"},
-           {{{"cameras", cameras}, {"loop", 1}}, "loop: got 1, expected no key but"},
-           {json::array({cameras[0], 1}), "camera 1: got number, expected an object"}}) {
+           {{{"cameras", cameras}, {"loop", 1}},
+            "loop: unknown key, expected one of cameras, closed"},
+           {json::array({cameras[0], 1}), "camera 1: got 1, expected an object"}}) {
     const std::string error = input_error_of([&] { read(row.document); });
     INFO(error);
     CHECK(error.find(row.says) != std::string::npos);
@@ -124,7 +133,7 @@ TEST_CASE("camera path: files and built-in ways, by table") {
 
 TEST_CASE("camera path: the turntable and the walk of the built-in scenes") {
   const CameraPath turntable = read_camera_path("builtin:path", "builtin:object?n=10");
-  CHECK(turntable.closed);
+  CHECK(turntable.facts.closed);
   double least = 9, most = 0;
   for (const Camera& camera : frames_along(turntable, 100)) {
     const double distance = glm::length(glm::dvec2(camera.position.x, camera.position.z));
@@ -136,7 +145,7 @@ TEST_CASE("camera path: the turntable and the walk of the built-in scenes") {
   CHECK(most == Approx(5.6));
   CHECK(least > 0.995 * most);
   const CameraPath walk = read_camera_path("builtin:path", "builtin:outdoor");
-  CHECK_FALSE(walk.closed);
+  CHECK_FALSE(walk.facts.closed);
   const std::vector<Camera> frames = frames_along(walk, 200);
   for (std::size_t i = 1; i < frames.size(); ++i) {  // no step longer than a man's
     CHECK(glm::length(frames[i].position - frames[i - 1].position) < 0.1);

@@ -39,13 +39,13 @@ TEST_CASE("sweep points: a list has words, JSON, comments and empty lines") {
   const test::ScratchFolder scratch;
   const std::string path = scratch.write(
       "points",
-      "# which\n\n  a=1  b=x # why\r\n"
+      "# which\n\n  a=1  b=x#1 # why\r\n"
       "{\"id\": {\"n\": 1}, \"set\": {\"a.b\": [1, 2], \"c\": \"t#\", \"d\": true}, \"view\": 3,"
       " \"size\": \"4x4\", \"scene\": \"s.ply\", \"cameras\": \"c.json\", \"config\": \"paper\","
       " \"fit_memories\": true}");
   const std::vector<SweepPoint> points = read_points(path);
   REQUIRE(points.size() == 2);
-  CHECK((points[0].overrides == Words{"a=1", "b=x"}));
+  CHECK((points[0].overrides == Words{"a=1", "b=x#1"}));
   CHECK((points[1].overrides == Words{"a.b=[1,2]", "c=\"t#\"", "d=true"}));
   CHECK(points[1].id == "{\"n\":1}");
   CHECK(points[1].view == "3");
@@ -60,6 +60,8 @@ TEST_CASE("sweep points: a list has words, JSON, comments and empty lines") {
 TEST_CASE("sweep points: a line that is no point says where and what was expected") {
   for (const auto& [line, words] : std::vector<std::pair<std::string, std::string>>{
            {"=1", "f:3: got '=1', expected KEY=VALUE"},
+           {"a=1 b=2 a=3", "f:3: got a twice, expected once"},
+           {"{\"sets\": {}}", "f:3: sets: unknown key, expected one of id, scene, cameras, view"},
            {"{\"view\": -1}", "f:3: view: got -1, expected a text"},
            {"{\"view\": \"\"}", "f:3: view: got \"\", expected a text"},
            {"{\"set\": [1]}", "f:3: set: got [1], expected {\"key.path\""},
