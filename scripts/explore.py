@@ -66,29 +66,30 @@ import pathlib
 import sys
 from collections.abc import Iterable, Sequence
 
-from tables import draw_beside
 from exploring import options
-from exploring.axes import ORDERS, Axis, key_of, label, of_scene, sizes_memory
-from exploring.record import Record, Work
-from exploring.judging import SMALL, SMALL_SIZE, Assignments, Judge, Task, relative_to
+from exploring.axes import (
+    ORDERS,
+    Assignments,
+    Axis,
+    Space,
+    key_of,
+    label,
+    of_scene,
+    parse_axes,
+    read_points,
+    sizes_memory,
+)
+from exploring.judging import SMALL, SMALL_SIZE, Judge, Task, relative_to
 from exploring.measures import AREA_BAND, NAMES, Objective, objective, requirement, shown
-from exploring.space import Space, parse_axes, read_points
+from exploring.record import Record, Work
 from exploring.steps import Steps
 from runs import run_arguments
 from runs.files import write_text
-from runs.scenes import REPOSITORY, Scene, find_scenes
-from runs.simulations import (
-    GROUP,
-    GROUP_KEYS,
-    Run,
-    expanded,
-    read_config,
-    simulate,
-    value_at,
-    view_numbers_there,
-)
-from runs.sweep_server import SweepServer
+from runs.keeper import SweepServer
+from runs.scenes import REPOSITORY, Scene, find_scenes, view_numbers_there
+from runs.simulations import GROUP, GROUP_KEYS, Run, expanded, read_config, simulate, value_at
 from streaminggs import numbers
+from tables import draw_beside
 
 RUNS_FILE = "explore_runs.jsonl"
 SAMPLERS = ("tpe", "nsga2", "random")

@@ -28,13 +28,11 @@ import pathlib
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 
-from runs import simulations
-from runs.scenes import Scene, find_scene
-from runs.simulations import view_numbers
-from runs.sweep_server import SweepServer
 from reporting.folder import find_runs
+from runs import simulations
+from runs.keeper import SweepServer
+from runs.scenes import BINARY, Failure, Scene, find_scene, view_numbers
 
-Failure = simulations.Failure
 Settings = Mapping[str, object]  # keys of the configuration
 
 # Columns of every data frame, by group, in this order: paths of report.json, which REPORT.md beside
@@ -88,7 +86,7 @@ def run(
     settings: Settings | None = None,
     fit_memories: bool = False,
     out: str | pathlib.Path | None = None,
-    program: str | pathlib.Path = simulations.BINARY,
+    program: str | pathlib.Path = BINARY,
 ) -> list[dict]:
     """Simulates and gives the report of each view.
 
@@ -148,7 +146,7 @@ def sweep(
     jobs: int = os.cpu_count() or 1,
     results: str | pathlib.Path | None = None,
     more: Sequence[str] = (),
-    program: str | pathlib.Path = simulations.BINARY,
+    program: str | pathlib.Path = BINARY,
 ):
     """Simulates each point on each view of each scene and gives a line for each, in that order: its
     scene, view and settings, `status` (done, refused or failed), `reason` where it is not done, then

@@ -9,10 +9,19 @@ import math
 import threading
 from collections.abc import Callable, Mapping, Sequence
 
-from exploring.axes import Assignments, Axis, key_of, label, nearest, of_scene, scope_of
-from exploring.axes import sizes_memory
+from exploring.axes import (
+    Assignments,
+    At,
+    Axis,
+    Space,
+    key_of,
+    label,
+    nearest,
+    of_scene,
+    scope_of,
+    sizes_memory,
+)
 from exploring.measures import EACH, NAMES, Measure, Objective, Requirement, number_at
-from exploring.space import At, Space
 from runs.scenes import Scene
 from runs.simulations import GROUP, Outcome, Run, shape_of, value_at
 

@@ -7,9 +7,8 @@ import argparse
 import pathlib
 from collections.abc import Iterable, Iterator, Sequence
 
-from exploring.axes import EACH, ORDERS, Assignments, Axis, Order, key_of, scope_of
+from exploring.axes import EACH, ORDERS, Assignments, Axis, Order, key_of, parse_named, scope_of
 from exploring.judging import Task
-from exploring.space import parse_named
 from runs import run_arguments
 from runs.files import read_json
 from runs.simulations import expanded, value_at

@@ -24,10 +24,9 @@ import dataclasses
 import math
 from collections.abc import Callable, Iterator, Sequence
 
-from exploring.axes import STRUCTURE, Assignments, label
-from exploring.record import Work
+from exploring.axes import STRUCTURE, Assignments, At, label
 from exploring.judging import Drawn, Judged, View
-from exploring.space import At
+from exploring.record import Work
 
 LEAST_GAIN = math.log(1.003)  # in what is required: what a step is worth taking for
 MOST_ROOM = 100.0  # where nothing is required of frames, or what is has no end

@@ -18,13 +18,11 @@ import tempfile
 from collections.abc import Mapping, Sequence
 
 import tables
-from tables import SCENE, Column, Made
-from runs import run_arguments, simulations
+from runs import run_arguments
 from runs.files import content_digest, read_json, write_text
-from runs.scenes import REPOSITORY, find_scene
+from runs.scenes import REPOSITORY, answered, find_scene
 from runs.simulations import Run
-
-JOBS = ("results.py headline",)
+from tables import SCENE, Column, Made, Study
 
 Pair = tuple[str, str]  # machine, baseline
 Ratios = Mapping[str, tuple[float, float]]  # by scene: speed-up, energy
@@ -48,7 +46,9 @@ COLUMNS = (
     PAIR,
     Column("speed-up", "time of the baseline over the machine's", "", ".2f"),
     Column("energy, baseline over machine", "joules of a frame", "", ".2f"),
-    Column("area ratio", "machine over baseline, without the memory's PHY and controller", "", ".2f"),
+    Column(
+        "area ratio", "machine over baseline, without the memory's PHY and controller", "", ".2f"
+    ),
     Column("area ratio with PHY and controller", "of the memory's channels", "", ".2f"),
     Column("picture", "8 bits a channel; dB beside photographs or the scene's own pictures"),
 )
@@ -108,7 +108,7 @@ def area_mm2(program: pathlib.Path, preset: str, technology: pathlib.Path) -> tu
     run = Run(find_scene(scene), size=size, config=preset)
     with tempfile.TemporaryDirectory(prefix="streaminggs-") as out:
         words = [*run.arguments(), "--technology", str(technology), "--out", out]
-        simulations.answered(program, "simulate", words, run.label())
+        answered(program, "simulate", words, run.label())
         (view,) = read_json(pathlib.Path(out) / "report.json")["views"]
     return view["area_mm2"]["total"], view["provenance"]
 
@@ -179,3 +179,6 @@ def made_from(arguments: argparse.Namespace, provenances: Sequence[dict]) -> Mad
         *(own.command, all_of("commits", own.commits), all_of("releases", own.releases)),
         *(own.program, digests),
     )
+
+
+HEADLINE = Study("headline", __doc__, ("results.py headline",), add_arguments, make)

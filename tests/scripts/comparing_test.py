@@ -13,11 +13,20 @@ from unittest import mock
 from in_folder import InFolder  # isort: skip (finds the scripts)
 import results
 import tables
-from tables import Column, Made
 from runs.files import content_digest
-from studies import compare_machines, headline, timing
 from runs.scenes import Scene
-from studies.cases import busiest_of_kernels, busiest_seconds, Case, Entry, GPU, Measured, sizes_of
+from studies import compare_machines, frame_costs, headline
+from studies.cases import (
+    GPU,
+    Case,
+    Entry,
+    Measured,
+    busiest_of_kernels,
+    busiest_seconds,
+    size_groups,
+    sizes_of,
+)
+from tables import Column, Made
 
 NAMES = [column.name for column in compare_machines.RATIO_COLUMNS]
 
@@ -202,7 +211,7 @@ class Machines(unittest.TestCase):
             for scene in scenes
             for size in sizes_of(scene.name, arguments)
         ]
-        groups = compare_machines.size_groups(cases, arguments)
+        groups = size_groups(cases, arguments)
         self.assertEqual(list(groups), ["4x2", "6x6, 8x4", "all"])
         times = (3, 9, 12, 9)
         entries = [
@@ -231,7 +240,7 @@ class Machines(unittest.TestCase):
             self.assertEqual(over_gscore[sizes][0], cases_of)
             self.assertAlmostEqual(over_gscore[sizes][1], times)
         alone = argparse.Namespace(sizes=["4x2"], object_sizes=["6x6"])
-        self.assertEqual(list(compare_machines.size_groups([cases[0]], alone)), ["all"])
+        self.assertEqual(list(size_groups([cases[0]], alone)), ["all"])
 
     def test_how_long_the_busiest_works(self):
         view = {"frame": {"time_s": 4e-3}, "binding": {"utilisation": 0.75}}
@@ -244,10 +253,10 @@ class Machines(unittest.TestCase):
 
     def test_the_quickest_and_the_slowest_of_a_machine(self):
         case = Case(Scene("s", "a"), "4x2")
-        points = [timing.Timed(case, "exact", 25.6, seconds, 0.5) for seconds in (2, 1, 3)]
-        rows = timing.point_rows(points)
-        self.assertEqual([row[-1] for row in rows], [timing.PUBLISHED_SECONDS, 1, 3])
-        self.assertEqual(len(timing.point_rows(points[:1])), 2)
+        points = [frame_costs.Timed(case, "exact", 25.6, seconds, 0.5) for seconds in (2, 1, 3)]
+        rows = frame_costs.point_rows(points)
+        self.assertEqual([row[-1] for row in rows], [frame_costs.PUBLISHED_SECONDS, 1, 3])
+        self.assertEqual(len(frame_costs.point_rows(points[:1])), 2)
 
     def test_every_region_is_of_one_kind(self):
         m = measured(1, region=5)

@@ -18,7 +18,10 @@ import tables
 from exploring import options
 from exploring.record import SETTING
 from reporting import results_page
-from studies import smallest_machine
+from runs.files import write_text
+from runs.scenes import Scene
+from studies import found
+from studies.found import SMALLEST_MACHINE
 from tables import Column, Made, Spread
 
 BY = Made("scripts/results.py one truck", ("abc",))
@@ -107,7 +110,7 @@ class Writing(InFolder):
         program.write_text("it")
         told = [{"commit": "b", "version": "1"}, {"commit": ""}, {"commit": "a", "version": "1"}]
         with mock.patch("sys.argv", words):
-            scenes = [tables.Scene("truck", str(self.scene)), tables.Scene("b", "builtin:b?n=1")]
+            scenes = [Scene("truck", str(self.scene)), Scene("b", "builtin:b?n=1")]
             by = tables.made(program, told, [*scenes, self.write_dataset()])
         self.assertEqual(by.command, "scripts/results.py one truck --cross")
         self.assertEqual((by.commits, by.releases), (("a", "b"), ("1",)))
@@ -163,7 +166,7 @@ class Places(InFolder):
     def test_no_half_file(self):
         with mock.patch("os.replace", side_effect=OSError(28, "No space left on device")):
             with self.assertRaises(OSError):
-                tables.write_text(self.folder / "one", "text")
+                write_text(self.folder / "one", "text")
         self.assertEqual(list(self.folder.glob("one*")), [])
 
 
@@ -291,7 +294,7 @@ class Pages(InFolder):
 class Smallest(InFolder):
     """Of explorations that are made up."""
 
-    HEAD = ("hfus", "mm2", *smallest_machine.SHOWN, "min(fps) >= 90", "slowest view", "front")
+    HEAD = ("hfus", "mm2", *found.SHOWN, "min(fps) >= 90", "slowest view", "front")
 
     def explored(self, *rows: tuple) -> str:
         columns = [Column(name, SETTING if name == "hfus" else "") for name in self.HEAD]
@@ -306,7 +309,7 @@ class Smallest(InFolder):
         better_picture = (4, 5.5, *self.BEST[2:])
         found = self.explored(self.START, better_picture, self.BEST)
         words = ("--found", found, "--out", str(self.folder))
-        status, line, _ = self.ended(smallest_machine, *words)
+        status, line, _ = self.ended(SMALLEST_MACHINE, *words)
         self.assertEqual(status, 0, line)
         (row,) = tables.read_rows(self.folder, "smallest_machine")
         self.assertEqual(
@@ -324,7 +327,7 @@ class Smallest(InFolder):
             (("--found", "1x1=nowhere"), "nowhere/explore.json: No such file"),
         ):
             with self.subTest(said):
-                status, line, _ = self.ended(smallest_machine, *words, "--out", str(self.folder))
+                status, line, _ = self.ended(SMALLEST_MACHINE, *words, "--out", str(self.folder))
                 self.assertEqual(status, 2)
                 self.assertIn(said, line)
 
@@ -356,7 +359,7 @@ if of == "b":
         (self.folder / "make.py").write_text(f"""\
 import pathlib, sys
 sys.path.insert(0, {str(REPOSITORY / "scripts")!r})
-from tables.jobs import Jobs
+from results import Jobs
 here = pathlib.Path({str(self.folder)!r})
 jobs = Jobs(here / "truck.ply", here / "scripts", here / "kept", here)
 jobs.make("one", sys.argv[1:], here / "made")
@@ -419,9 +422,8 @@ jobs.make("one", sys.argv[1:], here / "made")
     def test_questions_name_columns_that_studies_write(self):
         """So that a table made again can be shown."""
         written = set()
-        for name in results.studies():
-            study = vars(importlib.import_module(f"studies.{name}"))
-            for value in study.values():
+        for path in results.STUDIES.glob("*.py"):
+            for value in vars(importlib.import_module(f"studies.{path.stem}")).values():
                 if isinstance(value, tuple):
                     written |= {of.name for of in value if isinstance(of, Column)}
         for of in results_page.questions(results.TABLES):
@@ -429,20 +431,21 @@ jobs.make("one", sys.argv[1:], here / "made")
                 self.assertEqual({*of.columns, *of.rows} - written, set())
 
     def test_every_study_states_one_that_it_takes(self):
-        for name in results.studies():
-            calls = importlib.import_module(f"studies.{name}").JOBS
+        known = results.studies()
+        for name, study in known.items():
+            calls = study.jobs
             self.assertTrue(any(call.startswith(f"results.py {name}") for call in calls), name)
             for script, *words in map(shlex.split, calls):
                 with self.subTest(name, words=words):
                     if script == "results.py":
-                        results.parser_of(words[0])[0].parse_args(words[1:])
+                        results.parser_of(known[words[0]]).parse_args(words[1:])
                     else:
                         self.assertEqual(script, "explore.py")
                         self.assertIn(words[words.index("--recipe") + 1], options.recipes())
 
     def test_one_study_alone_does_not_write_over_the_tables_of_this_repository(self):
-        for name in results.studies():
-            arguments = results.parser_of(name)[0].parse_args([])
+        for study in results.studies().values():
+            arguments = results.parser_of(study).parse_args([])
             self.assertEqual(arguments.out, results.OUT)
         self.assertFalse(results.OUT.is_relative_to(results.TABLES))
 
@@ -452,7 +455,7 @@ jobs.make("one", sys.argv[1:], here / "made")
             ("abc-dirty", ("--all",), "commit abc-dirty, expected one of committed sources"),
         ):
             with self.subTest(said), mock.patch.object(
-                results.simulations, "program_provenance", return_value={"commit": commit}
+                results, "program_provenance", return_value={"commit": commit}
             ):
                 status, line, _ = self.ended(results, *words)
                 self.assertEqual(status, 2)
