@@ -24,19 +24,12 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import IO
 
-from runs.files import content_digest, program_digest, write_text
+from runs.files import content_digest, files_of, program_digest, write_text
 from runs.scenes import REFUSED, Failure, program_provenance, said, view_numbers
 from runs.simulations import MOST_SIDE_BY_SIDE, Outcome, Run
 
 MOST_OF_LABEL = 100  # that stands in the name of a folder
 DONE = "made.json"  # written last: a folder that has it is whole
-
-
-def files_of(path: pathlib.Path) -> list[pathlib.Path]:
-    """The file of that name, or all below the folder; none for what is neither."""
-    if path.is_dir():
-        return sorted(below for below in path.rglob("*") if below.is_file())
-    return [path] if path.is_file() else []
 
 
 def digests_of(words: Iterable[str]) -> Iterator[str]:

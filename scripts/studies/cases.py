@@ -73,7 +73,7 @@ def check_machines(arguments: argparse.Namespace) -> None:
 
 def find_cases(arguments: argparse.Namespace) -> list[Case]:
     """Raises ValueError for what is no scene, size, machine or view, or there twice."""
-    scenes = find_scenes(arguments.scenes or [*BUILT_IN, *shared_names()])
+    scenes = find_scenes(arguments.scenes or [*BUILT_IN, *shared_names()], arguments.cameras)
     check_sizes(arguments, scenes)
     check_machines(arguments)
     for scene in scenes:

@@ -274,6 +274,17 @@ def make_image(scenes: list[Scene], arguments: argparse.Namespace) -> None:
     tables.draw_beside(arguments.out, "error_image")
 
 
+def check_read_by_benchmarks(scene: Scene) -> None:
+    """Raises ValueError for other forms than .ply with a .json of cameras."""
+    if scene.cameras and not scene.spec.endswith(".ply"):
+        raise ValueError(
+            f"{scene.spec}: renderers take a .ply, expected what `streaminggs convert {scene.spec} "
+            f"{scene.name}.ply` writes"
+        )
+    if scene.cameras and not pathlib.Path(scene.cameras).is_file():
+        raise ValueError(f"{scene.cameras}: renderers take a .json of cameras, expected one")
+
+
 def laid_out(scene: Scene, folder: pathlib.Path) -> str:
     """As benchmarks find it: the cameras beside the scene, under its name."""
     if not scene.cameras:
@@ -385,9 +396,11 @@ def add_arguments(to: run_arguments.Parser) -> None:
 
 def make(arguments: argparse.Namespace) -> None:
     check(arguments)
-    scenes = find_scenes(arguments.scenes)
+    scenes = find_scenes(arguments.scenes, arguments.cameras)
     for scene in scenes:
         view_numbers_there(arguments.streaminggs, scene, arguments.view)
+        if "renderers" in arguments.diagrams:
+            check_read_by_benchmarks(scene)
     if "tuning" in arguments.diagrams:
         dataset_folders(arguments)
     for name in arguments.diagrams:

@@ -192,7 +192,7 @@ def add_fight_arguments(to: run_arguments.Parser) -> None:
 def make_fair_fight(arguments: argparse.Namespace) -> None:
     for option in ("found", "presets", "sizes"):
         run_arguments.check_once(f"--{option}", getattr(arguments, option))
-    scenes = find_scenes(arguments.scenes)
+    scenes = find_scenes(arguments.scenes, arguments.cameras)
     folders = dict(text.partition("=")[::2] for text in arguments.found)
     machines = [Machine(f"preset {name}", preset=name) for name in arguments.presets]
     machines += [

@@ -131,7 +131,7 @@ def add_energy_arguments(to: run_arguments.Parser) -> None:
 def make_energy(arguments: argparse.Namespace) -> None:
     run_arguments.check_once("--groups", arguments.groups)
     groups = {shape: group_assignments(shape) for shape in arguments.groups}
-    scenes = find_scenes(arguments.scenes or shared_names())
+    scenes = find_scenes(arguments.scenes or shared_names(), arguments.cameras)
 
     def runs_of(cases: Sequence[tuple[str, Sequence[str]]]) -> list[Run]:
         """Of all scenes, by preset and what is set."""
@@ -250,7 +250,7 @@ def add_binding_arguments(to: run_arguments.Parser) -> None:
 
 
 def make_binding_check(arguments: argparse.Namespace) -> None:
-    scenes = find_scenes(arguments.scenes or shared_names())
+    scenes = find_scenes(arguments.scenes or shared_names(), arguments.cameras)
     with concurrent.futures.ThreadPoolExecutor(arguments.side_by_side) as pool:
         waiting = [pool.submit(ask_what_if, arguments, scene) for scene in scenes]
         try:

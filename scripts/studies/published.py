@@ -130,7 +130,7 @@ def add_claim_arguments(to: run_arguments.Parser) -> None:
 
 def make_paper_claims(arguments: argparse.Namespace) -> None:
     if arguments.scenes:
-        scenes = find_scenes(arguments.scenes)
+        scenes = find_scenes(arguments.scenes, arguments.cameras)
         chosen = {scene: CLAIM_SCENES.get(scene.spec, arguments.size) for scene in scenes}
     else:
         chosen = {find_scene(spec): size for spec, size in CLAIM_SCENES.items()}
@@ -350,7 +350,7 @@ def add_published_arguments(to: run_arguments.Parser) -> None:
 def make_published_figures(arguments: argparse.Namespace) -> None:
     """Raises ValueError before the first simulation for what is no scene or view."""
     here = [name for name in ("park",) if name in shared_names()]
-    scenes = find_scenes(arguments.scenes or [*here, *RATE_SCENES])
+    scenes = find_scenes(arguments.scenes or [*here, *RATE_SCENES], arguments.cameras)
     ablated = [
         (find_scene(name), size)
         for name, size in ABLATION_CASES

@@ -6,7 +6,6 @@ from __future__ import annotations
 import argparse
 import concurrent.futures
 import dataclasses
-import json
 import math
 import pathlib
 import statistics
@@ -17,7 +16,7 @@ from typing import IO
 import tables
 from runs import run_arguments
 from runs.keeper import Fitting, Keeper, KeptFittings
-from runs.scenes import Scene, answered
+from runs.scenes import Scene, answered, camera_count
 from runs.simulations import MJ, Run, asked_mb, bus_mb, cycles, joules, mean, simulate_into
 from studies import subjects
 from studies.subjects import EXACT, EXACT_VQ, PAPER, PAPER_VQ, Source, Subject, Tunings
@@ -56,7 +55,7 @@ def test_views(binary: pathlib.Path, source: Source) -> int:
     if isinstance(source, Scene):
         if not source.cameras:
             raise ValueError(f"{source.name}: brings its own cameras, expected a file of them")
-        return len(json.loads(pathlib.Path(source.cameras).read_text()))
+        return camera_count(binary, source)
     lines = answered(binary, "info", [str(source)], f"info {source}").splitlines()
     (count,) = (line.split()[3] for line in lines if line.startswith("to test with "))
     return int(count)
@@ -71,7 +70,8 @@ def target_pictures(arguments: argparse.Namespace, subject: Subject) -> TargetPi
             words = [subject.dataset, *subject.photograph_words(), "--out", str(place)]
             answered(binary, "photographs", words, f"photographs of {subject.name}")
             return
-        for view in range(len(json.loads(pathlib.Path(subject.cameras).read_text()))):
+        views = camera_count(binary, Scene(subject.name, subject.scene, subject.cameras))
+        for view in range(views):
             words = [subject.scene, "--cameras", subject.cameras, "--view", str(view)]
             words += ["--size", subject.size, "--out", str(place / f"view_{view}.exr")]
             answered(binary, "render", words, f"render {subject.name}")

@@ -12,14 +12,15 @@ from collections.abc import Sequence
 
 from runs import run_arguments
 from runs.keeper import Fitting, KeptFittings
-from runs.scenes import Scene, answered, find_scene, shared_folder
+from runs.scenes import Scene, answered, find_scenes, shared_folder
 from runs.simulations import FIT_MEMORIES
 
 DEFAULT_SUBJECTS = ("lego", "desk", "truck", "platform", "yard")
 DATASET_FORMS = "a data set of ../shared by name, or the folder of one"
 SUBJECT_FORMS = (
-    f"{DATASET_FORMS}; a real scene of ../shared by name, or a .ply file with its cameras beside it"
+    f"{DATASET_FORMS}; a real scene of ../shared by name, or a file of any form that the command reads"
 )
+SCENE_IN_FOLDER = ("meta.json", "lod-meta.json")  # of SOG
 LOOKS = 20  # at the test views, while a scene is trained
 PAPER, PAPER_VQ = "paper_no_vq", "paper"
 EXACT, EXACT_VQ = "exact", "exact_vq"
@@ -61,10 +62,12 @@ def datasets_there() -> list[str]:
 
 
 def dataset_folder(text: str) -> pathlib.Path | None:
-    """That a name or a path means, if any."""
+    """That a name or a path means, if any; of a scene there are folders as well."""
     if text in datasets_there():
         return shared_folder() / "data" / text
-    return pathlib.Path(text) if pathlib.Path(text).is_dir() else None
+    path = pathlib.Path(text)
+    is_scene = any((path / name).exists() for name in SCENE_IN_FOLDER)
+    return path if path.is_dir() and not is_scene else None
 
 
 def downscale_words(downscale: float) -> tuple[str, ...]:
@@ -247,14 +250,17 @@ def begin(
     draws with. Raises ValueError."""
     calls = tunings_of(arguments, quantised_steps)
     kept = kept_fittings(arguments, arguments.side_by_side)
-    sources = find_sources(arguments.scenes or DEFAULT_SUBJECTS)
+    sources = find_sources(arguments.scenes or DEFAULT_SUBJECTS, arguments.cameras)
     check_settings(arguments.streaminggs, calls, configs)
     return calls, kept, sources
 
 
-def find_sources(texts: Sequence[str]) -> list[Source]:
-    """By name of a data set or of a scene, or by path. Raises ValueError."""
-    return [dataset_folder(text) or find_scene(text) for text in texts]
+def find_sources(texts: Sequence[str], cameras: Sequence[str]) -> list[Source]:
+    """By name of a data set or of a scene, or by path. cameras: of the scenes that are paths. Raises
+    ValueError."""
+    scenes = [text for text in texts if not dataset_folder(text)]
+    found = iter(find_scenes(scenes, cameras) if scenes or cameras else ())
+    return [dataset_folder(text) or next(found) for text in texts]
 
 
 def check_settings(binary: pathlib.Path, calls: Tunings, configs: Sequence[str]) -> None:

@@ -125,7 +125,7 @@ def add_variant_arguments(to: run_arguments.Parser) -> None:
 
 
 def make_compare_variants(arguments: argparse.Namespace) -> None:
-    scenes = find_scenes(arguments.scenes)
+    scenes = find_scenes(arguments.scenes, arguments.cameras)
     runs = [
         Run(scene, arguments.view, arguments.size, variant, tuple(arguments.set))
         for scene in scenes
@@ -184,7 +184,7 @@ def add_half_arguments(to: run_arguments.Parser) -> None:
 
 
 def make_half_by_stage(arguments: argparse.Namespace) -> None:
-    scenes = find_scenes(arguments.scenes)
+    scenes = find_scenes(arguments.scenes, arguments.cameras)
     runs = [
         Run(
             scene,
@@ -300,7 +300,7 @@ def add_work_arguments(to: run_arguments.Parser) -> None:
 
 
 def make_work_precision(arguments: argparse.Namespace) -> None:
-    scenes = find_scenes(arguments.scenes)
+    scenes = find_scenes(arguments.scenes, arguments.cameras)
     given = tuple(arguments.set)
     base = Run(scenes[0], overrides=given, fit_memories=True)
     preset = resolved_config(arguments.streaminggs, base)

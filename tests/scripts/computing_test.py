@@ -274,6 +274,36 @@ class Configurations(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "n=1: got it twice, expected each scene once"):
                 find_scenes(texts)
 
+    def test_scenes_by_path(self):
+        """Of any form, with cameras of any form; what is in them the program reads."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            for path in ("a.spz", "a.json", "b.ply", "photographs/x", "c/meta.json", "d/b.ply"):
+                (folder / path).parent.mkdir(exist_ok=True)
+                (folder / path).touch()
+            a, b, c, other_b = (str(folder / path) for path in ("a.spz", "b.ply", "c", "d/b.ply"))
+            photographs, file = str(folder / "photographs"), str(folder / "a.json")
+            for texts, cameras, expected in (
+                ([a], [], [("a", file)]),
+                ([a, b, c], [photographs], [(of, photographs) for of in "abc"]),
+                ([a, c], [photographs, file], [("a", photographs), ("c", file)]),
+                (["builtin:object", b], [file], [("builtin:object", ""), ("b", file)]),
+            ):
+                with self.subTest(texts=texts, cameras=cameras):
+                    found = find_scenes(texts, cameras)
+                    self.assertEqual([scene.spec for scene in found], texts)
+                    self.assertEqual([(scene.name, scene.cameras) for scene in found], expected)
+            for texts, cameras, said in (
+                ([b], [], "b.ply: expected its cameras in .*/b.json, or by --cameras"),
+                ([c], [], "c: expected its cameras in .*/c.json, or by --cameras"),
+                ([b], ["nowhere"], "--cameras: nowhere: not there"),
+                (["builtin:object"], [file], "--cameras: got 1 for 0 scenes that are paths"),
+                ([a, b, c], [file] * 2, "--cameras: got 2 for 3 scenes that are paths"),
+                ([b, other_b], [file], "d/b.ply: named b as .*b.ply is, expected another name"),
+            ):
+                with self.subTest(said), self.assertRaisesRegex(ValueError, said):
+                    find_scenes(texts, cameras)
+
 
 class Stability(unittest.TestCase):
     """Rows of a study that is whole at its first two places, and infinite at its last."""
