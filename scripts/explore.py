@@ -46,8 +46,10 @@ Simulations are kept in explore_runs.jsonl: interrupted or started again it goes
 Writes explore.csv, a line for each configuration, explore.json, what its columns mean and what made
 it, and exploration.svg and .png, whose axes are what was required; filter_units.svg
 and .png where CFUs and FFU lanes are all that differs. For one objective explore_best.json is the
-best as a configuration, explore_best_SCENE.json where scenes have their own. Of what was
-interrupted or failed midway there are explore_partial.csv and .json.
+best as a configuration, explore_best_SCENE.json where scenes have their own. Where no configuration
+holds what is required, the exit status is 3, and the last line says which bounds are missed and by
+how much the nearest one misses. Of what was interrupted or failed midway there are
+explore_partial.csv and .json.
 
 With --study the trials of a search or grid are kept by name in --storage, a file, or a database of
 postgresql:// in which any number of workers on any number of machines take part, each started by
@@ -261,7 +263,7 @@ def explore(arguments: argparse.Namespace) -> None:
     options.check_arguments(arguments)
     if is_studied(arguments):
         run_arguments.need("optuna", "python3-optuna")
-    scenes = find_scenes(arguments.scenes)
+    scenes = find_scenes(arguments.scenes, arguments.cameras)
     with SweepServer(arguments.streaminggs, arguments.out / RUNS_FILE, arguments.j) as kept:
         explore_with(kept, arguments, scenes)
 
@@ -310,6 +312,8 @@ def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Seque
         path = arguments.out / f"explore_best{scene}.json"
         write_text(path, json.dumps(document, indent=2) + "\n")
     draw_beside(arguments.out, "exploration", "filter_units")
+    if said := work.made.none_holds():
+        raise run_arguments.NoneHolds(said)
 
 
 def main() -> int:

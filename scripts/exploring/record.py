@@ -134,15 +134,20 @@ class Record:
         held = len(self.held())
         text = f"{len(self.told())} configurations"
         text += f", of which {held} hold {required}" if required else ""
-        said = [f"{text}; {len(self.front())} of them no other one beats."]
+        said = [f"{text}; {len(self.front())} of them no other one beats." if held else f"{text}."]
         if self.shows_pictures():
             said.append("Pictures differ, so that PSNR decides as well.")
-        if not held and self.task.requirements:
-            said.append(f"None of {len(self.told())} holds: {self.why_none_holds()}.")
-            nearest = self.nearest()
-            if settings := self.what_differs(nearest) if nearest else "":
-                said.append(f"The nearest: {settings}.")
+        if none := self.none_holds():
+            said.append(f"{none[:1].upper()}{none[1:]}.")
         return "\n\n".join(filter(None, [*said, *self.remarks, *self.not_told()]))
+
+    def none_holds(self) -> str:
+        """How many miss what is required, and by how much the nearest does; empty where one holds."""
+        if self.held() or not self.task.requirements:
+            return ""
+        nearest = self.nearest()
+        settings = f": {self.what_differs(nearest)}" if nearest else ""
+        return f"none of {len(self.told())} holds: {self.why_none_holds()}{settings}"
 
     def write(self, out: pathlib.Path, name: str, program: pathlib.Path, remark: str = "") -> None:
         front = self.front()
@@ -172,6 +177,7 @@ class Record:
         missed = max(nearest.violations)
         of = self.task.requirements[nearest.violations.index(missed)]
         more = " or more, not drawn on all views" if nearest.dropped else ""
+        more = "" if of in self.task.of_machines() else more
         return f"{words}; the nearest misses {of.text} by {missed:.1%}{more}"
 
     def what_differs(self, judged: Judged) -> str:

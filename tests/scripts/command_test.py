@@ -87,11 +87,6 @@ class WithTheCommand(InFolder):
             (PAPER_CLAIMS, ("--size", "64x36"), {"| area, mm2 | 5.37 |": 1, "| claim |": 1}),
             (
                 explore,
-                ("--recipe", "smallest", "--require", "min(fps) >= 100000", "--trials", "2"),
-                {"too slow (min(fps) >= 100000); the nearest misses min(fps) >= 100000 by ": 1},
-            ),
-            (
-                explore,
                 ("--recipe", "paper_in_area", "--size", "64x36", "--trials", "2"),
                 {"2 configurations, of which ": 1},
             ),
@@ -126,6 +121,14 @@ class WithTheCommand(InFolder):
                 self.assertRegex(made, f"Made by `scripts/{file_of(script)} ")
                 for text, count in lines.items():
                     self.assertEqual(made.count(text), count, f"{text} in\n{made}")
+
+    def test_where_no_machine_holds(self):
+        """The status says so to a script."""
+        words = ("--recipe", "smallest", "--require", "min(fps) >= 100000", "--trials", "2")
+        words += ("--streaminggs", COMMAND, "--out", str(self.folder))
+        status, line, _ = self.ended(explore, str(self.scene), *words)
+        self.assertEqual(status, 3)
+        self.assertRegex(line, r"too slow \(min\(fps\) >= 100000\); the nearest misses min\(fps\)")
 
     @nightly
     def test_both_orders_in_one_area(self):
