@@ -11,14 +11,16 @@ says what its columns mean and what made it; and puts tables into the README.md 
   results.py --check             says what of these is out of date, and tables of several releases
 
 What was simulated, trained or tuned is kept in a folder: started again, a study goes on where it
-ended, and takes what another one had made. A study's source states its job. Jobs that
-are done are not done again until program or scripts change; one that fails keeps no other back.
+ended, and takes what another one had made. A study's source states its job, and whose tables it
+reads: those are made before it. Jobs that are done are not done again until program, scripts or what
+they read change; one that fails keeps no other back.
 """
 
 from __future__ import annotations
 
 import argparse
 import dataclasses
+import graphlib
 import hashlib
 import importlib
 import pathlib
@@ -27,7 +29,7 @@ import shlex
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import IO
 
 import tables
@@ -35,10 +37,29 @@ from reporting import results_page
 from runs import run_arguments
 from runs.files import write_text
 from runs.keeper import Keeper
-from runs.scenes import BINARY, REFUSED, REPOSITORY, Failure, program_provenance
+from runs.scenes import (
+    BINARY,
+    REFUSED,
+    REPOSITORY,
+    Failure,
+    program_provenance,
+    shared_files,
+)
 from tables import Study, facts_of, markdown_of, said_by_hand
 
 BEAT_SECONDS = 30  # what is lost of the minutes where this is killed
+ENDS = (".csv", ".json")  # of a table's files
+
+
+def named_inputs(parser: run_arguments.Parser, words: Sequence[str]) -> list[pathlib.Path]:
+    """Programs, scenes and data sets that a call's arguments name, by default as well; all that
+    ../shared has where they name no scene or library, since the call then takes what is there."""
+    given = vars(parser.parse_args(words))
+    values = [of for each in given.values() for of in (each if isinstance(each, list) else [each])]
+    found = [of for of in values if isinstance(of, pathlib.Path) and of.is_file()]
+    found += [path for of in values if of and isinstance(of, str) for path in shared_files(of)]
+    takes_all = [] in (given.get("scenes"), given.get("libraries"))
+    return [*found, *(shared_files() if takes_all else ())]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -64,9 +85,9 @@ class Jobs:
         text = "".join(f"{path.relative_to(scripts)} {path.read_text()}" for path in sources)
         self.digest = hashlib.sha256(text.encode()).hexdigest()
 
-    def make(self, study: str, calls: Sequence[str], out: pathlib.Path) -> list[str]:
+    def make(self, study: Study, out: pathlib.Path) -> list[str]:
         """Writes the study's tables; returns their names. Raises Failure, ValueError."""
-        done = [self.called(study, shlex.split(call)) for call in calls]
+        done = [self.called(study, shlex.split(call), out) for call in study.jobs]
         minutes = sum(each.minutes for each in done)
         folders = [each.folder for each in done if each.folder]
         names = dict.fromkeys(p.stem for f in folders for p in sorted(f.glob("*.csv")))
@@ -75,18 +96,19 @@ class Jobs:
             tables.join(out, name, of, minutes)
         return list(names)
 
-    def called(self, study: str, words: Sequence[str]) -> Called:
-        script, *more = words
-        clock = self.keeper.place(f"{study} clock", words)
-        if script != "results.py":
+    def called(self, study: Study, words: Sequence[str], out: pathlib.Path) -> Called:
+        clock = self.keeper.place(f"{study.name} clock", words)
+        if words[0] != "results.py":
             return Called(None, self.run(words, clock))
 
         def make(place: pathlib.Path, lock: IO) -> float:
             own = ["--out", str(place.absolute()), "--kept", str(self.kept.absolute())]
             return self.run([*words, *own], clock, lock)
 
-        facts = [self.digest, *words, *map(str, self.explored(words))]
-        return Called(*self.keeper.kept(study, facts, make))
+        read = [out / f"{name}{end}" for of in study.reads.values() for name in of for end in ENDS]
+        read += [*self.explored(words), *named_inputs(parser_of(study), words[2:])]
+        facts = [self.digest, *words, *map(str, read)]
+        return Called(*self.keeper.kept(study.name, facts, make))
 
     def explored(self, words: Sequence[str]) -> list[pathlib.Path]:
         """Folders that explore.py wrote, which a call names as NAME=FOLDER."""
@@ -147,6 +169,12 @@ def minutes_of(study: str, folder: pathlib.Path) -> float | None:
     return None
 
 
+def in_order(known: Mapping[str, Study], names: Iterable[str]) -> list[str]:
+    """Each behind those whose tables it reads."""
+    order = graphlib.TopologicalSorter({name: of.reads for name, of in known.items()})
+    return [name for name in order.static_order() if name in set(names)]
+
+
 def parser_of(study: Study) -> run_arguments.Parser:
     parser = run_arguments.Parser(study.about)
     parser.prog += f" {study.name}"
@@ -188,9 +216,9 @@ def make_all(arguments: argparse.Namespace) -> None:
     jobs = Jobs(BINARY, SCRIPTS, arguments.kept, REPOSITORY)
     by_hand = said_by_hand(arguments.tables)
     errors: list[Exception] = []
-    for name in arguments.all or known:
+    for name in in_order(known, arguments.all or known):
         try:
-            for made in jobs.make(name, known[name].jobs, arguments.tables):
+            for made in jobs.make(known[name], arguments.tables):
                 check_it = "; about.json speaks of it: check that" if made in by_hand else ""
                 print(f"{arguments.tables / made}.csv, .json{check_it}", flush=True)
         except (Failure, ValueError) as error:

@@ -17,7 +17,7 @@ import tables
 from runs import run_arguments
 from runs.scenes import BINARY, REPOSITORY, Failure, answered, program_provenance, shared_folder
 from studies.gates import DELAY, NODE_NM, Library, ran, read_library, switched
-from tables import Column, Made, Study
+from tables import Column, Study
 
 STABILITY = BINARY.with_name("stability")
 
@@ -348,6 +348,7 @@ def add_synthesis_arguments(to: run_arguments.Parser) -> None:
         default=[],
         help="tops; without: all",
     )
+    run_arguments.add_program(to)
 
 
 def make_synthesis(arguments: argparse.Namespace) -> None:
@@ -364,13 +365,8 @@ def make_synthesis(arguments: argparse.Namespace) -> None:
             libraries, logic.items(), MAPPINGS
         ):
             mapped.append(mapped_to(library, module, gates, mapping, folder))
-    by = Made(
-        run_arguments.command_line(),
-        (),
-        (),
-        tables.tree_digest(VERILOG),
-        {path.name: tables.tree_digest(path) for path in paths},
-    )
+    program = arguments.streaminggs
+    by = tables.made(program, [program_provenance(program)], [VERILOG, *paths])
     tables.write(arguments.out, "synthesis", by, SYNTHESIS_COLUMNS, [each.row() for each in mapped])
     rows = [node_row(module, [m for m in mapped if m.module == module]) for module in chosen]
     tables.write(arguments.out, "synthesis_32nm", by, NODE_COLUMNS, rows, NODE_ABOUT)

@@ -1,6 +1,7 @@
 """Tables of results: both files, the Markdown that comes from them, and places in READMEs."""
 
 import contextlib
+import dataclasses
 import importlib
 import io
 import json
@@ -18,7 +19,7 @@ import tables
 from exploring import options
 from exploring.record import SETTING
 from reporting import results_page
-from runs.files import write_text
+from runs.files import content_digest, write_text
 from runs.scenes import Scene
 from studies import found
 from studies.found import SMALLEST_MACHINE
@@ -241,15 +242,35 @@ class Pages(InFolder):
 
     def test_tables_that_nobody_can_make_again(self):
         """Also where all are alike in it."""
+        typed, again = "one (`y`), two (`y`)", "one (--all energy), two (--all energy)"
         for by, said in (
-            (Made("y", ()), "tables name no commit"),
-            (Made("y", ("abc",)), "tables name no release"),
-            (Made("y", ("abc-dirty",), ("0.2.0",)), "tables are of uncommitted sources"),
+            (Made("y", ()), f"tables name no commit, since no study writes them: {typed}"),
+            (
+                Made("scripts/results.py energy truck", ()),
+                f"tables name no commit, to be made again: {again}",
+            ),
+            (Made("y", ("abc",)), "tables name no release: one, two"),
+            (Made("y", ("abc-dirty",), ("1",)), "tables are of uncommitted sources: one, two"),
         ):
             for name in ("one", "two"):
                 self.write_table(name, by)
             with self.subTest(by):
-                self.assertEqual(results_page.faults(self.tables), [f"2 {said}: one, two"])
+                self.assertEqual(results_page.faults(self.tables), [f"2 {said}"])
+
+    def test_tables_that_are_made_of_tables(self):
+        """With what is wrong in these."""
+        digest = content_digest(self.tables / "one.csv")
+        of_one = Made("y", ("abc",), ("0.2.0",), inputs={"one.csv": digest})
+        self.write_table("two", of_one)
+        self.assertEqual(results_page.faults(self.tables), [])
+        self.write_table("one", Made("x", ("abc",)))
+        said = "two is made of tables that name no release: one"
+        self.assertIn(said, results_page.faults(self.tables))
+        self.write_table("two", dataclasses.replace(of_one, commits=("abc", "d")))
+        self.assertIn("1 tables mix commits: two (abc, d)", results_page.faults(self.tables))
+        self.write_table("two", dataclasses.replace(of_one, inputs={"one.csv": "another"}))
+        said = "two was made of another one.csv than there is"
+        self.assertIn(said, results_page.faults(self.tables))
 
     def test_check_from_the_command_line(self):
         words = ("--check", "--tables", str(self.tables))
@@ -360,9 +381,14 @@ if of == "b":
 import pathlib, sys
 sys.path.insert(0, {str(REPOSITORY / "scripts")!r})
 from results import Jobs
+from tables import Study
+def arguments(to):
+    to.add_argument("scenes", nargs="*")
+    to.add_argument("--program", type=pathlib.Path)
 here = pathlib.Path({str(self.folder)!r})
 jobs = Jobs(here / "truck.ply", here / "scripts", here / "kept", here)
-jobs.make("one", sys.argv[1:], here / "made")
+study = Study("one", "", sys.argv[1:], arguments, print, {{"another": ["read"]}})
+jobs.make(study, here / "made")
 """)
 
     def words(self, *calls: str) -> list[str]:
@@ -410,6 +436,42 @@ jobs.make("one", sys.argv[1:], here / "made")
         self.assertEqual(self.calls(), ["a", "b", "a", "b"])
         facts = json.loads((self.folder / "made" / "one.json").read_text())
         self.assertGreater(facts["made"]["minutes"], first)
+
+    def test_what_a_job_reads(self):
+        """Scenes and data sets of ../shared by name, all of them without one, programs, tables of
+        another study: of each change it is made again."""
+        shared, program = self.folder / "shared", self.folder / "program"
+        table = self.folder / "made" / "read.csv"
+        files = [shared / path for path in ("scenes/a.ply.xz", "cameras/a.json", "data/b/image")]
+        for path in (*files, program, table):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.touch()
+        times = 0
+        for call, changed in (
+            (f"results.py one a --program {program}", (files[0], files[1], program, table)),
+            ("results.py one b", (files[2],)),
+            ("results.py one", files),
+        ):
+            for path in (None, *changed):
+                with self.subTest(call, changed=path):
+                    if path:
+                        path.write_text(f"{path} {times}")
+                    times += 1
+                    with mock.patch.dict("os.environ", SGS_SHARED=str(shared)):
+                        for _ in range(1 if path else 2):
+                            subprocess.run(self.words(call), check=True)
+                            self.assertEqual(len(self.calls()), times)
+
+    def test_studies_come_behind_those_that_they_read(self):
+        known = results.studies()
+        order = results.in_order(known, known)
+        self.assertEqual(sorted(order), list(known))
+        for name, study in known.items():
+            for other in study.reads:
+                self.assertLess(order.index(other), order.index(name), (other, name))
+        self.assertLess(order.index("quality_table"), order.index("headline"))
+        few = ["headline", "quality_table"]
+        self.assertEqual(results.in_order(known, few), ["quality_table", "headline"])
 
     def test_what_fails_writes_no_table(self):
         done = subprocess.run(
