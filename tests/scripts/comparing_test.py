@@ -289,10 +289,24 @@ class Headline(InFolder):
             ],
         )
 
+        head = ("size px", "machine", "mm2", "M cycles", "mJ", "PSNR dB, least", "PSNR dB, most")
+        self.save(
+            headline.SEARCHED,
+            head,
+            [
+                ("1x1", "preset exact", 9, 9, 9, 9, 9),
+                ("1x1", "exact, found", 6, 2, 3, "inf", "inf"),
+                ("2x2", "exact, found", 6, 2, 3, "inf", "inf"),
+                ("1x1", "paper, found", 3, 1, 3, 20, 40),
+                ("2x2", "paper, found", 3, 4, 12, 15, 30),
+            ],
+        )
+
     def write_cases(self, *cases):
         head = ("scene", "GB/s", "machine", "than", "times as fast", "times less energy")
-        rows = [(scene, "25.6", *self.PAIR, *ratios) for scene, *ratios in cases]
-        rows.append(("truck", "51.2", *self.PAIR, 100, 100))
+        rows = [(scene, "25.6", *self.PAIR, *ratios, 50) for scene, *ratios in cases]
+        rows += [(scene, "51.2", *self.PAIR, 100, 100, by) for scene, by in (("a", 2), ("b", 0.5))]
+        head += ("both overlapped",)
         self.save(headline.CASES, head, rows)
 
     def save(self, name, head, rows):
@@ -300,9 +314,10 @@ class Headline(InFolder):
         tables.save(self.folder, name, by, [Column(each, "") for each in head], rows)
 
     def made(self) -> list[dict[str, str]]:
-        def area(_, preset: str, technology: pathlib.Path) -> tuple[float, dict]:
+        def area(_, preset: str, channels: int, technology: pathlib.Path) -> tuple[float, dict]:
             counted = json.loads(technology.read_text())["memory_interface"]["counted"]
-            return {"exact_fast": 3, "exact_vq": 3}.get(preset, 2) + (4 if counted else 0), {}
+            own = {"exact_fast": 3, "exact_vq": 3}.get(preset, 2)
+            return own + (channels if counted else 0), {}
 
         arguments = argparse.Namespace(
             tables=self.folder, out=self.folder, streaminggs=self.stand_in("")
@@ -315,7 +330,7 @@ class Headline(InFolder):
 
     def test_each_trained_scene_counts_once(self):
         """Truck 4 and 3, yard 1 and 12; a built-in scene and the other memory do not count."""
-        first, _ = self.made()
+        first, *_ = self.made()
         self.assertEqual(first["machine / baseline"], "exact_fast / gscore_lossless")
         self.assertAlmostEqual(float(first["speed-up"]), 2)
         self.assertAlmostEqual(float(first["energy, baseline over machine"]), 6)
@@ -325,17 +340,40 @@ class Headline(InFolder):
         self.assertEqual([row["scene"] for row in scenes], ["truck", "yard", "lego", "desk"])
 
     def test_of_tuned_scenes_only_what_was_tuned_to_codebooks(self):
-        *_, last = self.made()
+        *_, last, _ = self.made()
         self.assertEqual(last["machine / baseline"], "exact_vq / paper")
         self.assertAlmostEqual(float(last["speed-up"]), 4)
         self.assertAlmostEqual(float(last["energy, baseline over machine"]), 3)
         self.assertEqual(last["picture"], "40.0 .. 40.0 dB, baseline 30.0 .. 30.0 dB")
 
+    def test_overlapped_frames_with_twice_the_memory(self):
+        """Of which no energy is measured; 8 channels in the area."""
+        row = self.made()[1]
+        self.assertEqual(row["machine / baseline"], "exact_fast / gscore_lossless")
+        self.assertEqual(row["frames"], "overlapped, 51.2 GB/s")
+        self.assertAlmostEqual(float(row["speed-up"]), 1)
+        self.assertEqual(row["energy, baseline over machine"], "")
+        self.assertAlmostEqual(float(row["area ratio with PHY and controller"]), 11 / 10)
+
+    def test_what_was_searched_for_both_orders(self):
+        """In cycles 1 / 2 and 4 / 2, in joules 3 / 3 and 12 / 3, in area 6 / 3."""
+        *_, row = self.made()
+        self.assertEqual(row["machine / baseline"], headline.SEARCHED_PAIR)
+        self.assertAlmostEqual(float(row["speed-up"]), 1)
+        self.assertAlmostEqual(float(row["energy, baseline over machine"]), 2)
+        self.assertAlmostEqual(float(row["area ratio"]), 2)
+        self.assertEqual(row["area ratio with PHY and controller"], "")
+        self.assertEqual(row["picture"], "the reference picture, baseline 15.0 .. 40.0 dB")
+        self.save(headline.SEARCHED, ("size px", "machine"), [("1x1", "preset exact")])
+        with self.assertRaisesRegex(ValueError, "no machine of each size that was found"):
+            self.made()
+
     def test_it_names_the_tables_that_it_is_from(self):
         self.made()
         made = tables.facts_of(self.folder, "headline")["made"]
-        self.assertEqual(made["commits"], [f"of {headline.CASES}", f"of {headline.TUNED}"])
-        self.assertEqual(list(made["inputs"]), [f"{headline.CASES}.csv", f"{headline.TUNED}.csv"])
+        names = (headline.CASES, headline.TUNED, headline.SEARCHED)
+        self.assertEqual(made["commits"], sorted(f"of {name}" for name in names))
+        self.assertEqual(list(made["inputs"]), [f"{name}.csv" for name in names])
 
     def test_without_trained_scenes_there_is_none(self):
         self.write_cases(("builtin:object", 1, 1))
