@@ -63,7 +63,6 @@ import concurrent.futures
 import dataclasses
 import functools
 import json
-import os
 import pathlib
 import sys
 from collections.abc import Iterable, Sequence
@@ -88,14 +87,12 @@ from exploring.steps import Steps
 from runs import run_arguments
 from runs.files import write_text
 from runs.keeper import SweepServer
-from runs.scenes import REPOSITORY, Scene, find_scenes, view_numbers_there
+from runs.scenes import Scene, find_scenes, view_numbers_there
 from runs.simulations import GROUP, GROUP_KEYS, Run, expanded, read_config, simulate, value_at
 from streaminggs import numbers
 from tables import draw_beside
 
 RUNS_FILE = "explore_runs.jsonl"
-SAMPLERS = ("tpe", "nsga2", "random")
-OBJECTIVES = "cycles,dram_bytes,sram_bytes,filter_lanes,mm2"
 
 
 def machine_axes(
@@ -160,7 +157,7 @@ def objectives_of(text: str) -> tuple[Objective, ...]:
 
 def default_objectives(config: dict) -> str:
     """Without filters where the machine has none."""
-    return OBJECTIVES if "hfu" in config else OBJECTIVES.replace("filter_lanes,", "")
+    return options.OBJECTIVES if "hfu" in config else options.OBJECTIVES.replace("filter_lanes,", "")
 
 
 def find_task(
@@ -256,7 +253,7 @@ def area_band(work: Work) -> str:
 
 
 def is_studied(arguments: argparse.Namespace) -> bool:
-    return arguments.search in SAMPLERS or bool(arguments.study)
+    return arguments.search in options.SAMPLERS or bool(arguments.study)
 
 
 def explore(arguments: argparse.Namespace) -> None:
@@ -317,87 +314,7 @@ def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Seque
 
 
 def main() -> int:
-    parser = run_arguments.Parser(__doc__)
-    run_arguments.add_scenes(parser)
-    parser.add_argument(
-        "--out", type=pathlib.Path, default=REPOSITORY / "out", metavar="FOLDER", help="for tables"
-    )
-    parser.add_argument(
-        "-j", type=int, default=os.cpu_count(), metavar="N", help="simulations at a time"
-    )
-    parser.add_argument(
-        "--recipe",
-        default="",
-        metavar="NAME",
-        help=f"{', '.join(options.recipes())}, or a JSON file of options by name; what the command line "
-        "says of one counts in its place",
-    )
-    parser.add_argument("--machine", choices=list(ORDERS), help="axes of an order's machine")
-    which = parser.add_mutually_exclusive_group()
-    which.add_argument(
-        "--axis", action="append", default=[], metavar="KEY=V1,V2,...", help="any number of them"
-    )
-    which.add_argument(
-        "--points", type=pathlib.Path, metavar="FILE", help="a list in place of a grid"
-    )
-    parser.add_argument(
-        "--beside",
-        action="append",
-        default=[],
-        metavar="'NAME: KEY=VALUE ...'",
-        help="judged as well and named in the figure; the name may be left out",
-    )
-    parser.add_argument("--view", default="0", help="numbers of cameras, as in 0,2, or all")
-    parser.add_argument("--size", default="", metavar="WxH", help="in px; default: the camera's")
-    parser.add_argument(
-        "--config",
-        default="",
-        help="preset or JSON file to start from; default: --machine's preset, else exact",
-    )
-    parser.add_argument(
-        "--set", action="append", default=[], metavar="KEY=VALUE", help="for every configuration"
-    )
-    parser.add_argument(
-        "--objectives",
-        default="",
-        metavar="MEASURE,...",
-        help="numbers to make small, or large with max: before; default: " + OBJECTIVES,
-    )
-    parser.add_argument(
-        "--require", action="append", default=[], metavar="'MEASURE >= NUMBER'", help="to be held"
-    )
-    parser.add_argument(
-        "--show", default="", metavar="MEASURE,...", help="further columns of the tables"
-    )
-    parser.add_argument(
-        "--search",
-        choices=(options.STEPS, *SAMPLERS),
-        help="steps along the axes, or Optuna's sampler; default: all there is",
-    )
-    parser.add_argument(
-        "--trials",
-        type=int,
-        metavar="N",
-        help="configurations that a search judges or that are refused, at most; default: 200, by "
-        "steps as many as it takes. Those of a --study's earlier runs and other workers count; "
-        "without one each run counts anew, also what is kept and not simulated again. What is "
-        "--beside, too large, skipped or proposed twice does not count; each other worker of a "
-        "study may add what it has under way",
-    )
-    parser.add_argument("--minutes", type=float, default=0, help="then it ends; 0: no limit")
-    parser.add_argument("--seed", type=int, default=1, help="of the sampler")
-    parser.add_argument("--study", default="", metavar="NAME", help="kept in --storage")
-    parser.add_argument(
-        "--storage", default="", metavar="URL", help="default: sqlite, explore.db in --out"
-    )
-    parser.add_argument(
-        "--lost-after",
-        type=int,
-        default=60,
-        metavar="SECONDS",
-        help="a worker of a study that was not heard of for so long counts as dead",
-    )
-    arguments = options.parsed(parser, sys.argv[1:])
+    arguments = options.parsed(options.parser(__doc__), sys.argv[1:])
     arguments.config = arguments.config or options.default_config(arguments.machine)
     return run_arguments.main_of_tables(explore, arguments)
 
