@@ -14,8 +14,7 @@ from reporting import charts
 from reporting.folder import find_runs, flat
 from runs import simulations
 from runs.scenes import call, find_scene
-from chromium import Chromium
-from page_checks import NEEDS_BROWSER, PageChecks
+from chromium import NEEDS_BROWSER, Chromium, PageChecks
 
 NEEDS_COMMAND = unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")
 
