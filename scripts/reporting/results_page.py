@@ -168,9 +168,10 @@ def faults(folder: pathlib.Path) -> list[str]:
         said.append(f"{len(unnamed)} tables name no release: {', '.join(unnamed)}")
     if changed := [name for name, of in made.items() if any(map(CHANGED.fullmatch, of["commits"]))]:
         said.append(f"{len(changed)} tables are of uncommitted sources: {', '.join(changed)}")
-    if mixed := [name for name, of in made.items() if len(of["commits"]) > 1]:
-        each = ", ".join(f"{name} ({', '.join(made[name]['commits'])})" for name in mixed)
-        said.append(f"{len(mixed)} tables mix commits: {each}")
+    for what in ("commits", "releases"):
+        if mixed := [name for name, of in made.items() if len(of[what]) > 1]:
+            each = ", ".join(f"{name} ({', '.join(made[name][what])})" for name in mixed)
+            said.append(f"{len(mixed)} tables mix {what}: {each}")
     said += [fault for name in made for fault in faults_of_sources(folder, name, made)]
     if len(found := releases(folder)) > 1:
         said.append(f"tables of {len(found)} programs, expected one")

@@ -116,6 +116,9 @@ class Ends(InFolder):
         good = self.stand_in("finish()")
         fifo = self.folder / "fifo"
         os.mkfifo(fifo)
+        other = self.folder / "other.spz"
+        other.touch()
+        shutil.copy(self.scene.with_suffix(".json"), other.with_suffix(".json"))
         for script, arguments, line in (
             (explore, ("--points", "nowhere"), "nowhere: No such file or directory$"),
             *(
@@ -150,6 +153,11 @@ class Ends(InFolder):
             ),
             (PUBLISHED_FIGURES, (str(self.scene),), "truck: got it twice, expected each scene"),
             (PUBLISHED_FIGURES, ("--view", "x"), "--view: 'x', expected numbers"),
+            (
+                ERROR_AGAINST_TIME,
+                (str(other),),
+                r".*other.spz: renderers take a .ply, expected what `streaminggs convert .* writes$",
+            ),
             (TIMING, ("--repeats", "0"), "--repeats: got 0, expected a number of 1 or more$"),
             *(
                 (script, (option, value, value), f"{option}: got {value} twice, .* each once$")

@@ -268,6 +268,9 @@ class Pages(InFolder):
         self.assertIn(said, results_page.faults(self.tables))
         self.write_table("two", dataclasses.replace(of_one, commits=("abc", "d")))
         self.assertIn("1 tables mix commits: two (abc, d)", results_page.faults(self.tables))
+        self.write_table("two", dataclasses.replace(of_one, releases=("0.1.0", "0.2.0")))
+        said = "1 tables mix releases: two (0.1.0, 0.2.0)"
+        self.assertIn(said, results_page.faults(self.tables))
         self.write_table("two", dataclasses.replace(of_one, inputs={"one.csv": "another"}))
         said = "two was made of another one.csv than there is"
         self.assertIn(said, results_page.faults(self.tables))
