@@ -255,7 +255,7 @@ def begin(
     return calls, kept, sources
 
 
-def find_sources(texts: Sequence[str], cameras: Sequence[str]) -> list[Source]:
+def find_sources(texts: Sequence[str], cameras: Sequence[str] = ()) -> list[Source]:
     """By name of a data set or of a scene, or by path. cameras: of the scenes that are paths. Raises
     ValueError."""
     scenes = [text for text in texts if not dataset_folder(text)]

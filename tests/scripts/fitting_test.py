@@ -246,6 +246,16 @@ class Words(InFolder):
         self.assertEqual(subjects.dataset_folder(str(self.folder)), self.folder)
         self.assertIsNone(subjects.dataset_folder(str(self.scene)))
 
+    def test_a_scene_may_be_a_folder(self):
+        """With cameras elsewhere, beside a data set that has its own."""
+        folder, cameras = self.folder / "streamed", str(self.scene.with_suffix(".json"))
+        folder.mkdir()
+        (folder / "lod-meta.json").touch()
+        photographs = str(self.write_dataset())
+        scene, dataset = subjects.find_sources([str(folder), photographs], [cameras])
+        self.assertEqual((scene.name, scene.cameras), ("streamed", cameras))
+        self.assertEqual(str(dataset), photographs)
+
 
 class Numbers(InFolder):
     def test_from_the_first_look_to_the_last(self):
