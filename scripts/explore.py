@@ -46,8 +46,10 @@ Simulations are kept in explore_runs.jsonl: interrupted or started again it goes
 Writes explore.csv, a line for each configuration, explore.json, what its columns mean and what made
 it, and exploration.svg and .png, whose axes are what was required; filter_units.svg
 and .png where CFUs and FFU lanes are all that differs. For one objective explore_best.json is the
-best as a configuration, explore_best_SCENE.json where scenes have their own. Of what was
-interrupted or failed midway there are explore_partial.csv and .json.
+best as a configuration, explore_best_SCENE.json where scenes have their own. Where no configuration
+holds what is required, the exit status is 3, and the last line says which bounds are missed and by
+how much the nearest one misses. Of what was interrupted or failed midway there are
+explore_partial.csv and .json.
 
 With --study the trials of a search or grid are kept by name in --storage, a file, or a database of
 postgresql:// in which any number of workers on any number of machines take part, each started by
@@ -61,38 +63,36 @@ import concurrent.futures
 import dataclasses
 import functools
 import json
-import os
 import pathlib
 import sys
 from collections.abc import Iterable, Sequence
 
-from tables import draw_beside
 from exploring import options
-from exploring.axes import ORDERS, Axis, key_of, label, of_scene, sizes_memory
-from exploring.record import Record, Work
-from exploring.judging import SMALL, SMALL_SIZE, Assignments, Judge, Task, relative_to
+from exploring.axes import (
+    ORDERS,
+    Assignments,
+    Axis,
+    Space,
+    key_of,
+    label,
+    of_scene,
+    parse_axes,
+    read_points,
+    sizes_memory,
+)
+from exploring.judging import SMALL, SMALL_SIZE, Judge, Task, relative_to
 from exploring.measures import AREA_BAND, NAMES, Objective, objective, requirement, shown
-from exploring.space import Space, parse_axes, read_points
+from exploring.record import Record, Work
 from exploring.steps import Steps
 from runs import run_arguments
 from runs.files import write_text
-from runs.scenes import REPOSITORY, Scene, find_scenes
-from runs.simulations import (
-    GROUP,
-    GROUP_KEYS,
-    Run,
-    expanded,
-    read_config,
-    simulate,
-    value_at,
-    view_numbers_there,
-)
-from runs.sweep_server import SweepServer
+from runs.keeper import SweepServer
+from runs.scenes import Scene, find_scenes, view_numbers_there
+from runs.simulations import GROUP, GROUP_KEYS, Run, expanded, read_config, simulate, value_at
 from streaminggs import numbers
+from tables import draw_beside
 
 RUNS_FILE = "explore_runs.jsonl"
-SAMPLERS = ("tpe", "nsga2", "random")
-OBJECTIVES = "cycles,dram_bytes,sram_bytes,filter_lanes,mm2"
 
 
 def machine_axes(
@@ -157,7 +157,7 @@ def objectives_of(text: str) -> tuple[Objective, ...]:
 
 def default_objectives(config: dict) -> str:
     """Without filters where the machine has none."""
-    return OBJECTIVES if "hfu" in config else OBJECTIVES.replace("filter_lanes,", "")
+    return options.OBJECTIVES if "hfu" in config else options.OBJECTIVES.replace("filter_lanes,", "")
 
 
 def find_task(
@@ -253,14 +253,14 @@ def area_band(work: Work) -> str:
 
 
 def is_studied(arguments: argparse.Namespace) -> bool:
-    return arguments.search in SAMPLERS or bool(arguments.study)
+    return arguments.search in options.SAMPLERS or bool(arguments.study)
 
 
 def explore(arguments: argparse.Namespace) -> None:
     options.check_arguments(arguments)
     if is_studied(arguments):
         run_arguments.need("optuna", "python3-optuna")
-    scenes = find_scenes(arguments.scenes)
+    scenes = find_scenes(arguments.scenes, arguments.cameras)
     with SweepServer(arguments.streaminggs, arguments.out / RUNS_FILE, arguments.j) as kept:
         explore_with(kept, arguments, scenes)
 
@@ -309,90 +309,12 @@ def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Seque
         path = arguments.out / f"explore_best{scene}.json"
         write_text(path, json.dumps(document, indent=2) + "\n")
     draw_beside(arguments.out, "exploration", "filter_units")
+    if said := work.made.none_holds():
+        raise run_arguments.NoneHolds(said)
 
 
 def main() -> int:
-    parser = run_arguments.Parser(__doc__)
-    run_arguments.add_scenes(parser)
-    parser.add_argument(
-        "--out", type=pathlib.Path, default=REPOSITORY / "out", metavar="FOLDER", help="for tables"
-    )
-    parser.add_argument(
-        "-j", type=int, default=os.cpu_count(), metavar="N", help="simulations at a time"
-    )
-    parser.add_argument(
-        "--recipe",
-        default="",
-        metavar="NAME",
-        help=f"{', '.join(options.recipes())}, or a JSON file of options by name; what the command line "
-        "says of one counts in its place",
-    )
-    parser.add_argument("--machine", choices=list(ORDERS), help="axes of an order's machine")
-    which = parser.add_mutually_exclusive_group()
-    which.add_argument(
-        "--axis", action="append", default=[], metavar="KEY=V1,V2,...", help="any number of them"
-    )
-    which.add_argument(
-        "--points", type=pathlib.Path, metavar="FILE", help="a list in place of a grid"
-    )
-    parser.add_argument(
-        "--beside",
-        action="append",
-        default=[],
-        metavar="'NAME: KEY=VALUE ...'",
-        help="judged as well and named in the figure; the name may be left out",
-    )
-    parser.add_argument("--view", default="0", help="numbers of cameras, as in 0,2, or all")
-    parser.add_argument("--size", default="", metavar="WxH", help="in px; default: the camera's")
-    parser.add_argument(
-        "--config",
-        default="",
-        help="preset or JSON file to start from; default: --machine's preset, else exact",
-    )
-    parser.add_argument(
-        "--set", action="append", default=[], metavar="KEY=VALUE", help="for every configuration"
-    )
-    parser.add_argument(
-        "--objectives",
-        default="",
-        metavar="MEASURE,...",
-        help="numbers to make small, or large with max: before; default: " + OBJECTIVES,
-    )
-    parser.add_argument(
-        "--require", action="append", default=[], metavar="'MEASURE >= NUMBER'", help="to be held"
-    )
-    parser.add_argument(
-        "--show", default="", metavar="MEASURE,...", help="further columns of the tables"
-    )
-    parser.add_argument(
-        "--search",
-        choices=(options.STEPS, *SAMPLERS),
-        help="steps along the axes, or Optuna's sampler; default: all there is",
-    )
-    parser.add_argument(
-        "--trials",
-        type=int,
-        metavar="N",
-        help="configurations that a search judges or that are refused, at most; default: 200, by "
-        "steps as many as it takes. Those of a --study's earlier runs and other workers count; "
-        "without one each run counts anew, also what is kept and not simulated again. What is "
-        "--beside, too large, skipped or proposed twice does not count; each other worker of a "
-        "study may add what it has under way",
-    )
-    parser.add_argument("--minutes", type=float, default=0, help="then it ends; 0: no limit")
-    parser.add_argument("--seed", type=int, default=1, help="of the sampler")
-    parser.add_argument("--study", default="", metavar="NAME", help="kept in --storage")
-    parser.add_argument(
-        "--storage", default="", metavar="URL", help="default: sqlite, explore.db in --out"
-    )
-    parser.add_argument(
-        "--lost-after",
-        type=int,
-        default=60,
-        metavar="SECONDS",
-        help="a worker of a study that was not heard of for so long counts as dead",
-    )
-    arguments = options.parsed(parser, sys.argv[1:])
+    arguments = options.parsed(options.parser(__doc__), sys.argv[1:])
     arguments.config = arguments.config or options.default_config(arguments.machine)
     return run_arguments.main_of_tables(explore, arguments)
 

@@ -28,14 +28,14 @@ from runs.scenes import REPOSITORY
 def make_figures(arguments: argparse.Namespace) -> None:
     """Raises ValueError where nothing could be made, and for a table that is none."""
     run_arguments.need("matplotlib", "python3-matplotlib")
-    from drawing import exploration, frames, machines, quality  # these need it
-    from drawing.figure import Missing, Results, save
+    from drawing import exploration, machines, quality  # these need it
+    from drawing.figure import OF_FRAMES, Missing, Results, save
 
     known = {
         **machines.FIGURES,
         **quality.FIGURES,
         **exploration.FIGURES,
-        **frames.FIGURES,
+        **OF_FRAMES,
     }
     for name in arguments.names:
         if name not in known:

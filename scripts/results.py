@@ -11,27 +11,138 @@ says what its columns mean and what made it; and puts tables into the README.md 
   results.py --check             says what of these is out of date, and tables of several releases
 
 What was simulated, trained or tuned is kept in a folder: started again, a study goes on where it
-ended, and takes what another one had made. A stated job is the JOBS of a study's source. Jobs that
-are done are not done again until program or scripts change; one that fails keeps no other back.
+ended, and takes what another one had made. A study's source states its job, and whose tables it
+reads: those are made before it. Jobs that are done are not done again until program, scripts or what
+they read change; one that fails keeps no other back.
 """
 
 from __future__ import annotations
 
 import argparse
-import ast
+import dataclasses
+import graphlib
+import hashlib
 import importlib
 import pathlib
 import re
+import shlex
+import subprocess
 import sys
-from collections.abc import Iterator
-from types import ModuleType
+import time
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import IO
 
-from tables import facts_of, markdown_of, said_by_hand
-from tables.jobs import Jobs
+import tables
 from reporting import results_page
-from runs import run_arguments, simulations
+from runs import run_arguments
 from runs.files import write_text
-from runs.scenes import REPOSITORY
+from runs.keeper import Keeper
+from runs.scenes import (
+    BINARY,
+    REFUSED,
+    REPOSITORY,
+    Failure,
+    program_provenance,
+    shared_files,
+)
+from tables import Study, facts_of, markdown_of, said_by_hand
+
+BEAT_SECONDS = 30  # what is lost of the minutes where this is killed
+ENDS = (".csv", ".json")  # of a table's files
+
+
+def named_inputs(parser: run_arguments.Parser, words: Sequence[str]) -> list[pathlib.Path]:
+    """Programs, scenes and data sets that a call's arguments name, by default as well; all that
+    ../shared has where they name no scene or library, since the call then takes what is there."""
+    given = vars(parser.parse_args(words))
+    values = [of for each in given.values() for of in (each if isinstance(each, list) else [each])]
+    found = [of for of in values if isinstance(of, pathlib.Path) and of.is_file()]
+    found += [path for of in values if of and isinstance(of, str) for path in shared_files(of)]
+    takes_all = [] in (given.get("scenes"), given.get("libraries"))
+    return [*found, *(shared_files() if takes_all else ())]
+
+
+@dataclasses.dataclass(frozen=True)
+class Called:
+    """folder: with tables; none of explore.py. minutes: of wall time, of all its starts with this
+    program together."""
+
+    folder: pathlib.Path | None
+    minutes: float
+
+
+class Jobs:
+    """scripts: their folder. kept: as of --kept. From the folder that they are run in outputs of
+    explore.py are named."""
+
+    def __init__(
+        self, binary: pathlib.Path, scripts: pathlib.Path, kept: pathlib.Path, start: pathlib.Path
+    ):
+        """Raises ValueError when there is no such program."""
+        self.keeper = Keeper(binary, kept / "jobs")
+        self.scripts, self.kept, self.start = scripts, kept, start
+        sources = sorted(path for path in scripts.rglob("*.py"))
+        text = "".join(f"{path.relative_to(scripts)} {path.read_text()}" for path in sources)
+        self.digest = hashlib.sha256(text.encode()).hexdigest()
+
+    def make(self, study: Study, out: pathlib.Path) -> list[str]:
+        """Writes the study's tables; returns their names. Raises Failure, ValueError."""
+        done = [self.called(study, shlex.split(call), out) for call in study.jobs]
+        minutes = sum(each.minutes for each in done)
+        folders = [each.folder for each in done if each.folder]
+        names = dict.fromkeys(p.stem for f in folders for p in sorted(f.glob("*.csv")))
+        for name in names:
+            of = [folder for folder in folders if (folder / f"{name}.csv").exists()]
+            tables.join(out, name, of, minutes)
+        return list(names)
+
+    def called(self, study: Study, words: Sequence[str], out: pathlib.Path) -> Called:
+        clock = self.keeper.place(f"{study.name} clock", words)
+        if words[0] != "results.py":
+            return Called(None, self.run(words, clock))
+
+        def make(place: pathlib.Path, lock: IO) -> float:
+            own = ["--out", str(place.absolute()), "--kept", str(self.kept.absolute())]
+            return self.run([*words, *own], clock, lock)
+
+        read = [out / f"{name}{end}" for of in study.reads.values() for name in of for end in ENDS]
+        read += [*self.explored(words), *named_inputs(parser_of(study), words[2:])]
+        facts = [self.digest, *words, *map(str, read)]
+        return Called(*self.keeper.kept(study.name, facts, make))
+
+    def explored(self, words: Sequence[str]) -> list[pathlib.Path]:
+        """Folders that explore.py wrote, which a call names as NAME=FOLDER."""
+        places = (self.start / word.partition("=")[2] for word in words if "=" in word)
+        return [place for place in places if (place / "explore.json").exists()]
+
+    def run(self, words: Sequence[str], clock: pathlib.Path, lock: IO | None = None) -> float:
+        """Minutes, with those in the file of the clock. What it prints but for progress is in its
+        tables."""
+        earlier = float(clock.read_text()) if clock.exists() else 0.0
+        began = time.monotonic()
+        call = subprocess.Popen(
+            [sys.executable, "-B", str(self.scripts / words[0]), *words[1:]],
+            stdout=subprocess.DEVNULL,
+            cwd=self.start,
+            pass_fds=(lock.fileno(),) if lock else (),
+        )
+        status = None
+        while status is None:
+            try:
+                status = call.wait(BEAT_SECONDS)
+            except subprocess.TimeoutExpired:
+                pass
+            except KeyboardInterrupt:
+                call.wait()  # it has heard it as well, and saves what is under way
+                raise
+            finally:
+                minutes = earlier + (time.monotonic() - began) / 60
+                write_text(clock, f"{minutes:.4f}\n")
+        if status:
+            kind = ValueError if status == REFUSED else Failure
+            raise kind(f"{shlex.join(words)}: ended with exit status {status}")
+        return minutes
+
 
 SCRIPTS = pathlib.Path(__file__).resolve().parent
 STUDIES = SCRIPTS / "studies"
@@ -42,16 +153,11 @@ PLACE = re.compile(r"(<!-- table: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 NOT_SOURCES = ("build", "out")
 
 
-def studies() -> dict[str, str]:
-    """How what each says of itself begins, by its name; without what they share."""
-    found = {}
-    for path in sorted(STUDIES.glob("*.py")):
-        source = ast.parse(path.read_text())
-        functions = {node.name for node in source.body if isinstance(node, ast.FunctionDef)}
-        if {"add_arguments", "make"} <= functions:
-            about = " ".join((ast.get_docstring(source) or "").split())
-            found[path.stem] = re.split(r"[.:] ", about)[0]
-    return found
+def studies() -> dict[str, Study]:
+    """By name."""
+    modules = [importlib.import_module(f"studies.{path.stem}") for path in STUDIES.glob("*.py")]
+    found = [of for module in modules for of in vars(module).values() if isinstance(of, Study)]
+    return {study.name: study for study in sorted(found, key=lambda study: study.name)}
 
 
 def minutes_of(study: str, folder: pathlib.Path) -> float | None:
@@ -63,16 +169,21 @@ def minutes_of(study: str, folder: pathlib.Path) -> float | None:
     return None
 
 
-def parser_of(name: str) -> tuple[run_arguments.Parser, ModuleType]:
-    study = importlib.import_module(f"studies.{name}")
-    parser = run_arguments.Parser(study.__doc__)
-    parser.prog += f" {name}"
+def in_order(known: Mapping[str, Study], names: Iterable[str]) -> list[str]:
+    """Each behind those whose tables it reads."""
+    order = graphlib.TopologicalSorter({name: of.reads for name, of in known.items()})
+    return [name for name in order.static_order() if name in set(names)]
+
+
+def parser_of(study: Study) -> run_arguments.Parser:
+    parser = run_arguments.Parser(study.about)
+    parser.prog += f" {study.name}"
     study.add_arguments(parser)
     parser.add_argument(
         "--out", type=pathlib.Path, default=OUT, metavar="FOLDER", help="for tables"
     )
     add_kept(parser)
-    return parser, study
+    return parser
 
 
 def add_kept(to: argparse.ArgumentParser) -> None:
@@ -85,9 +196,8 @@ def add_kept(to: argparse.ArgumentParser) -> None:
     )
 
 
-def run(name: str, words: list[str]) -> int:
-    parser, study = parser_of(name)
-    arguments = parser.parse_args(words)
+def run(study: Study, words: list[str]) -> int:
+    arguments = parser_of(study).parse_args(words)
     status = run_arguments.main_of_tables(study.make, arguments)
     if status == 0 and arguments.out == OUT:
         print(f"tables are in {OUT.relative_to(REPOSITORY)}", file=sys.stderr)
@@ -100,21 +210,18 @@ def make_all(arguments: argparse.Namespace) -> None:
     for name in arguments.all:
         if name not in known:
             raise ValueError(f"--all: got {name}, expected some of {', '.join(known)}")
-    commit = simulations.program_provenance(simulations.BINARY)["commit"]
+    commit = program_provenance(BINARY)["commit"]
     if results_page.CHANGED.fullmatch(commit):
-        raise ValueError(
-            f"{simulations.BINARY}: commit {commit}, expected one of committed sources"
-        )
-    jobs = Jobs(simulations.BINARY, SCRIPTS, arguments.kept, REPOSITORY)
+        raise ValueError(f"{BINARY}: commit {commit}, expected one of committed sources")
+    jobs = Jobs(BINARY, SCRIPTS, arguments.kept, REPOSITORY)
     by_hand = said_by_hand(arguments.tables)
     errors: list[Exception] = []
-    for name in arguments.all or known:
-        calls = importlib.import_module(f"studies.{name}").JOBS
+    for name in in_order(known, arguments.all or known):
         try:
-            for made in jobs.make(name, calls, arguments.tables):
+            for made in jobs.make(known[name], arguments.tables):
                 check_it = "; about.json speaks of it: check that" if made in by_hand else ""
                 print(f"{arguments.tables / made}.csv, .json{check_it}", flush=True)
-        except (simulations.Failure, ValueError) as error:
+        except (Failure, ValueError) as error:
             print(error, file=sys.stderr)
             errors.append(error)
     if errors:
@@ -185,21 +292,23 @@ def check(tables: pathlib.Path) -> None:
         raise ValueError("\n  ".join(faults))
 
 
-def list_studies(tables: pathlib.Path) -> int:
-    for name, about in studies().items():
+def list_studies(known: Mapping[str, Study], tables: pathlib.Path) -> int:
+    """With how each begins what it says of itself."""
+    for name, study in known.items():
         minutes = minutes_of(name, tables)
         took = "not timed" if minutes is None else f"{minutes:.0f} min"
+        about = re.split(r"[.:] ", " ".join((study.about or "").split()))[0]
         print(f"{name:22}{took:>9}  {about}")
     return 0
 
 
 def main() -> int:
-    words = sys.argv[1:]
-    if words and words[0] in studies():
-        return run(words[0], words[1:])
+    words, known = sys.argv[1:], studies()
+    if words and words[0] in known:
+        return run(known[words[0]], words[1:])
     parser = run_arguments.Parser(__doc__)
     parser.add_argument(
-        "study", nargs="?", choices=studies(), metavar="STUDY", help="one that --list names"
+        "study", nargs="?", choices=known, metavar="STUDY", help="one that --list names"
     )
     parser.add_argument("--list", action="store_true", help="name the studies, and their minutes")
     parser.add_argument(
@@ -234,7 +343,7 @@ def main() -> int:
     if arguments.pages or arguments.check:
         work = write_pages if arguments.pages else check
         return run_arguments.main(lambda: work(arguments.tables))
-    return list_studies(arguments.tables)
+    return list_studies(known, arguments.tables)
 
 
 if __name__ == "__main__":

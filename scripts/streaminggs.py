@@ -28,13 +28,18 @@ import pathlib
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 
-from runs import simulations
-from runs.scenes import Scene, find_scene
-from runs.simulations import view_numbers
-from runs.sweep_server import SweepServer
 from reporting.folder import find_runs
+from runs import simulations
+from runs.keeper import SweepServer
+from runs.scenes import (
+    BINARY,
+    Failure,  # what callers catch
+    Scene,
+    find_scene,
+    find_scenes,
+    view_numbers,
+)
 
-Failure = simulations.Failure
 Settings = Mapping[str, object]  # keys of the configuration
 
 # Columns of every data frame, by group, in this order: paths of report.json, which REPORT.md beside
@@ -88,12 +93,12 @@ def run(
     settings: Settings | None = None,
     fit_memories: bool = False,
     out: str | pathlib.Path | None = None,
-    program: str | pathlib.Path = simulations.BINARY,
+    program: str | pathlib.Path = BINARY,
 ) -> list[dict]:
     """Simulates and gives the report of each view.
 
-    scene: builtin:NAME?n=COUNT, a real scene of ../shared by name, or a file with its cameras
-    beside it, or with `cameras`. view: a number, "0,2" or "all". size: "WxH". settings: keys of the
+    scene: builtin:NAME?n=COUNT, a real scene of ../shared by name, or a file or folder of any form
+    that the command reads, with `cameras`, or with NAME.json beside it. view: a number, "0,2" or "all". size: "WxH". settings: keys of the
     configuration over those of `config`. fit_memories: as the option, on-chip memories as large as
     all else needs. out: a folder that keeps pictures and reports.
 
@@ -141,6 +146,7 @@ def sweep(
     scenes: Sequence[str | pathlib.Path],
     views: str | int = 0,
     *,
+    cameras: str | pathlib.Path = "",
     size: str = "",
     config: str | pathlib.Path = "exact",
     settings: Settings | None = None,
@@ -148,7 +154,7 @@ def sweep(
     jobs: int = os.cpu_count() or 1,
     results: str | pathlib.Path | None = None,
     more: Sequence[str] = (),
-    program: str | pathlib.Path = simulations.BINARY,
+    program: str | pathlib.Path = BINARY,
 ):
     """Simulates each point on each view of each scene and gives a line for each, in that order: its
     scene, view and settings, `status` (done, refused or failed), `reason` where it is not done, then
@@ -156,7 +162,7 @@ def sweep(
     python3-pandas), else a list of dictionaries with these columns.
 
     points: settings over `settings`, which are over those of `config`; scenes, views, size,
-    fit_memories: as run() has them. jobs: simulations side by side. results: a file of JSON lines,
+    fit_memories: as run() has them. cameras: of all scenes that are files or folders. jobs: simulations side by side. results: a file of JSON lines,
     which keeps what was simulated and of which nothing is simulated again; without it nothing is
     kept.
 
@@ -168,7 +174,7 @@ def sweep(
     check_list("scenes", scenes)
     check_list("more", more)
     binary = pathlib.Path(program)
-    found = [find_scene(str(scene)) for scene in scenes]
+    found = find_scenes([str(scene) for scene in scenes], [str(cameras)] if cameras else [])
     cases = [
         (point, simulations.Run(scene, str(view), size, str(config), own, fit_memories))
         for scene in found

@@ -203,6 +203,8 @@ def exploration(results: Results) -> Made:
     for."""
     everything = results.table("explore", "explore.py", ("front", "binding"))
     across, ups = axes_of(everything)
+    if not any(point_of(row, across, up) for row in everything.rows for up in ups):
+        raise Missing(f"{results.tables / 'explore.csv'}: no configuration was drawn")
     wide = len(ups) == 1
     figure, all_axes = panels(len(ups), width=6 if wide else 4.6, height=4 if wide else 3.6)
     for axes, up in zip(all_axes, ups):

@@ -15,7 +15,6 @@ from drawing.figure import (
     LINES,
     MARKERS,
     ON_PAPER,
-    Data,
     Made,
     Results,
     from_zero,

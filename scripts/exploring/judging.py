@@ -9,10 +9,20 @@ import math
 import threading
 from collections.abc import Callable, Mapping, Sequence
 
-from exploring.axes import Assignments, Axis, key_of, label, nearest, of_scene, scope_of
-from exploring.axes import sizes_memory
+from exploring.axes import (
+    STRUCTURE,
+    Assignments,
+    At,
+    Axis,
+    Space,
+    key_of,
+    label,
+    nearest,
+    of_scene,
+    scope_of,
+    sizes_memory,
+)
 from exploring.measures import EACH, NAMES, Measure, Objective, Requirement, number_at
-from exploring.space import At, Space
 from runs.scenes import Scene
 from runs.simulations import GROUP, Outcome, Run, shape_of, value_at
 
@@ -277,6 +287,60 @@ class Judge:
             return axis.scope or (label(self.task.views[0][0].name) if memory else "")
 
         return tuple(nearest(axis, config(scope(axis))) for axis in space.axes)
+
+
+Amount = Callable[[At], float]  # of a machine that there is
+
+
+class Machines:
+    """What machines of a space take of the one objective, where any frame tells it, and of what is
+    allowed; each is asked for once."""
+
+    def __init__(self, space: Space, judge: Judge):
+        self.space, self.judge, self.task = space, judge, judge.task
+        (self.objective,) = self.task.objectives
+        self.taken: dict[Assignments, tuple[float, float] | None] = {}
+        self.backs: dict[tuple, tuple[int, float] | None] = {}
+
+    def machine(self, at: At) -> tuple[float, float] | None:
+        """What it takes, and how much of what is allowed; None: there is no such machine."""
+        machine = self.space.machine(at)
+        if machine not in self.taken:
+            views = self.judge.machine(machine)
+            self.taken[machine] = self.taken_by(views) if views else None
+        return self.taken[machine]
+
+    def taken_by(self, views: Sequence[dict]) -> tuple[float, float]:
+        share = 1 + max((r.violation(views) for r in self.task.of_machines()), default=-1)
+        return self.objective.cost(views) if self.task.of_the_machine() else share, share
+
+    def size(self, at: At) -> float | None:
+        machine = self.machine(at)
+        return machine and machine[0]
+
+    def share(self, at: At) -> float | None:
+        """More than 1: too large."""
+        machine = self.machine(at)
+        return machine and machine[1]
+
+    def neighbour(self, at: At, which: int, step: int) -> At | None:
+        """The next one along an axis that there can be."""
+        moved = self.space.moved(at, which, step)
+        while moved and self.size(moved) is None:
+            moved = self.space.moved(moved, which, step)
+        return moved
+
+    def back(self, at: At, which: int, of: Amount) -> tuple[At, float] | None:
+        """The next one with less on an axis, and about how much that frees of size or share: as
+        much as it did for the last one that was alike in structure."""
+        alike = [n for axis, n in zip(self.space.axes, at) if axis.name in STRUCTURE]
+        key = (of.__name__, which, at[which], *alike)
+        if key not in self.backs:
+            back = self.neighbour(at, which, -1)
+            self.backs[key] = back and (back[which], of(at) - of(back))
+        if not (known := self.backs[key]):
+            return None
+        return self.space.moved(at, which, known[0] - at[which]), known[1]
 
 
 def worst_psnr_db(views: Sequence[dict]) -> float:

@@ -1,22 +1,109 @@
-"""Options of explore.py: recipes, which are options by name in a JSON file, and what is refused
+"""Options of explore.py; recipes, which are options by name in a JSON file, and what is refused
 before anything is judged."""
 
 from __future__ import annotations
 
 import argparse
+import os
 import pathlib
 from collections.abc import Iterable, Iterator, Sequence
 
-from exploring.axes import EACH, ORDERS, Assignments, Axis, Order, key_of, scope_of
+from exploring.axes import EACH, ORDERS, Assignments, Axis, Order, key_of, parse_named, scope_of
 from exploring.judging import Task
-from exploring.space import parse_named
 from runs import run_arguments
 from runs.files import read_json
+from runs.scenes import REPOSITORY
 from runs.simulations import expanded, value_at
 
 CONFIG = "exact"
 STEPS = "steps"
+SAMPLERS = ("tpe", "nsga2", "random")
+OBJECTIVES = "cycles,dram_bytes,sram_bytes,filter_lanes,mm2"
 RECIPES = pathlib.Path(__file__).resolve().parent / "recipes"
+
+
+def parser(about: str | None) -> run_arguments.Parser:
+    parser = run_arguments.Parser(about)
+    run_arguments.add_scenes(parser)
+    parser.add_argument(
+        "--out", type=pathlib.Path, default=REPOSITORY / "out", metavar="FOLDER", help="for tables"
+    )
+    parser.add_argument(
+        "-j", type=int, default=os.cpu_count(), metavar="N", help="simulations at a time"
+    )
+    parser.add_argument(
+        "--recipe",
+        default="",
+        metavar="NAME",
+        help=f"{', '.join(recipes())}, or a JSON file of options by name; what the command line "
+        "says of one counts in its place",
+    )
+    parser.add_argument("--machine", choices=list(ORDERS), help="axes of an order's machine")
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument(
+        "--axis", action="append", default=[], metavar="KEY=V1,V2,...", help="any number of them"
+    )
+    which.add_argument(
+        "--points", type=pathlib.Path, metavar="FILE", help="a list in place of a grid"
+    )
+    parser.add_argument(
+        "--beside",
+        action="append",
+        default=[],
+        metavar="'NAME: KEY=VALUE ...'",
+        help="judged as well and named in the figure; the name may be left out",
+    )
+    parser.add_argument("--view", default="0", help="numbers of cameras, as in 0,2, or all")
+    parser.add_argument("--size", default="", metavar="WxH", help="in px; default: the camera's")
+    parser.add_argument(
+        "--config",
+        default="",
+        help="preset or JSON file to start from; default: --machine's preset, else exact",
+    )
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="KEY=VALUE", help="for every configuration"
+    )
+    parser.add_argument(
+        "--objectives",
+        default="",
+        metavar="MEASURE,...",
+        help="numbers to make small, or large with max: before; default: " + OBJECTIVES,
+    )
+    parser.add_argument(
+        "--require", action="append", default=[], metavar="'MEASURE >= NUMBER'", help="to be held"
+    )
+    parser.add_argument(
+        "--show", default="", metavar="MEASURE,...", help="further columns of the tables"
+    )
+    parser.add_argument(
+        "--search",
+        choices=(STEPS, *SAMPLERS),
+        help="steps along the axes, or Optuna's sampler; default: all there is",
+    )
+    parser.add_argument(
+        "--trials",
+        type=int,
+        metavar="N",
+        help="configurations that a search judges or that are refused, at most; default: 200, by "
+        "steps as many as it takes. Those of a --study's earlier runs and other workers count; "
+        "without one each run counts anew, also what is kept and not simulated again. What is "
+        "--beside, too large, skipped or proposed twice does not count; each other worker of a "
+        "study may add what it has under way",
+    )
+    parser.add_argument("--minutes", type=float, default=0, help="then it ends; 0: no limit")
+    parser.add_argument("--seed", type=int, default=1, help="of the sampler")
+    parser.add_argument("--study", default="", metavar="NAME", help="kept in --storage")
+    parser.add_argument(
+        "--storage", default="", metavar="URL", help="default: sqlite, explore.db in --out"
+    )
+    parser.add_argument(
+        "--lost-after",
+        type=int,
+        default=60,
+        metavar="SECONDS",
+        help="a worker of a study that was not heard of for so long counts as dead",
+    )
+    return parser
 
 
 def recipes() -> list[str]:

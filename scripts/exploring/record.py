@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import json
 import math
 import pathlib
 import sys
@@ -12,13 +13,12 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 
 import tables
-from exploring.axes import Assignments, label, scope_of
+from exploring.axes import Assignments, Space, label, scope_of
 from exploring.judging import Judge, Judged, Task
 from exploring.measures import NAMES
-from exploring.space import Space
+from runs.files import content_digest
+from runs.simulations import Run, named_files, pareto_front, pictures_differ, with_pictures
 from tables import Column
-from runs.front import pareto_front, pictures_differ, with_pictures
-from runs.simulations import Run
 
 NOT_DRAWN = "not all views drawn"
 PICTURE = "min(psnr_db)"
@@ -134,15 +134,20 @@ class Record:
         held = len(self.held())
         text = f"{len(self.told())} configurations"
         text += f", of which {held} hold {required}" if required else ""
-        said = [f"{text}; {len(self.front())} of them no other one beats."]
+        said = [f"{text}; {len(self.front())} of them no other one beats." if held else f"{text}."]
         if self.shows_pictures():
             said.append("Pictures differ, so that PSNR decides as well.")
-        if not held and self.task.requirements:
-            said.append(f"None of {len(self.told())} holds: {self.why_none_holds()}.")
-            nearest = self.nearest()
-            if settings := self.what_differs(nearest) if nearest else "":
-                said.append(f"The nearest: {settings}.")
+        if none := self.none_holds():
+            said.append(f"{none[:1].upper()}{none[1:]}.")
         return "\n\n".join(filter(None, [*said, *self.remarks, *self.not_told()]))
+
+    def none_holds(self) -> str:
+        """How many miss what is required, and by how much the nearest does; empty where one holds."""
+        if self.held() or not self.task.requirements:
+            return ""
+        nearest = self.nearest()
+        settings = f": {self.what_differs(nearest)}" if nearest else ""
+        return f"none of {len(self.told())} holds: {self.why_none_holds()}{settings}"
 
     def write(self, out: pathlib.Path, name: str, program: pathlib.Path, remark: str = "") -> None:
         front = self.front()
@@ -172,6 +177,7 @@ class Record:
         missed = max(nearest.violations)
         of = self.task.requirements[nearest.violations.index(missed)]
         more = " or more, not drawn on all views" if nearest.dropped else ""
+        more = "" if of in self.task.of_machines() else more
         return f"{words}; the nearest misses {of.text} by {missed:.1%}{more}"
 
     def what_differs(self, judged: Judged) -> str:
@@ -226,9 +232,7 @@ class Work:
                 f"{len(best)} on the front, " + ", ".join(f"{n} {v:.6g}" for n, v in numbers)
             )
         else:
-            words.append(
-                f"none of {len(self.made.told())} holds yet: {self.made.why_none_holds()}"
-            )
+            words.append(f"none of {len(self.made.told())} holds yet: {self.made.why_none_holds()}")
         if math.isfinite(left):
             words[-1] += f"; {max(left, 0) / 60:.1f} min left"
         print(*words, file=sys.stderr, flush=True)
@@ -252,3 +256,32 @@ class Work:
             name: {**read(task.run(*view, best.assignments)), "sram": sram}
             for name, view in runs.items()
         }
+
+
+def digests_of_files(work: Work) -> list[str]:
+    """Of the contents of scenes, cameras, configuration and memspecs. Not of their paths, which may
+    be others on another machine."""
+    task = work.judge.task
+    scenes = list(dict.fromkeys(scene for scene, _ in task.views))
+    settings = [s for axis in work.space.axes for setting in axis.settings for s in setting]
+    runs = [Run(scene, "", "", task.config, (*task.base, *settings)) for scene in scenes]
+    runs += [Run(scenes[0], config=r.reference) for r in task.requirements if r.reference]
+    return [content_digest(path) for run in runs for path in named_files(run)]
+
+
+def described(work: Work, program: str) -> str:
+    """All that a result depends on, but for the place in the space."""
+    task = work.judge.task
+    facts = {
+        "program": program,
+        "files": digests_of_files(work),
+        "configurations": "proposed" if work.arguments.search else "all",
+        "views": [[scene.name, number] for scene, number in task.views],
+        "size": task.size,
+        "config": task.config,
+        "base": list(task.base),
+        "objectives": [o.name for o in task.objectives],
+        "requirements": [r.text for r in task.requirements],
+        "shown": [measure.text for measure in task.shown],
+    }
+    return json.dumps(facts)

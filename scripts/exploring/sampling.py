@@ -1,20 +1,244 @@
-"""An exploration by a study: what workers do, in threads of one script or in many scripts."""
+"""A study that Optuna keeps: in a file, for one worker at a time, since SQLite cannot hand a trial
+to one of two; or in a database that any number of workers on any number of machines share. Needs
+Debian's python3-optuna; for postgresql:// python3-psycopg2 as well.
+
+A worker that is killed leaves its trial running. Each worker that goes on looks for trials whose
+worker has not been heard of for some time, and puts their configurations back in the queue. A
+configuration that was judged already is never judged again: whoever takes it up ends its trial as
+the same as the other one.
+"""
 
 from __future__ import annotations
 
 import concurrent.futures
+import dataclasses
+import fcntl
 import json
 import random
+import threading
+import time
+import uuid
 import warnings
+from collections.abc import Callable
+from typing import IO
 
 import optuna
+from exploring.axes import At, Space
 from exploring.judging import Judged
-from exploring.record import Work
-from exploring.space import At
-from exploring.study import JUDGED, SAME_AS, Study, locked, open_storage, sampler, unpacked
-from runs.files import content_digest
-from runs.front import dominates
-from runs.simulations import Run, named_files
+from exploring.record import Work, described
+from runs.simulations import dominates
+
+BEATS = 4  # of a worker, in the time after which it counts as lost
+POLL_SECONDS = 1.0
+MOST_ATTEMPTS = 5
+MOST_IDLE = 5  # polls, until what is missing counts as given up
+CLAIM_SECONDS = 300  # more than a queue of thousands takes
+MOST_RETRIES = 3  # of a configuration whose worker was lost
+REFUSED_TEXT, VIOLATIONS, JUDGED, SAME_AS = "refused", "violations", "judged", "same_as"
+SPACE, TASK, CLAIM, FILLED = "space", "task", "claim", "filled"
+States = optuna.trial.TrialState
+
+
+def open_storage(url: str, lost_after: int) -> optuna.storages.RDBStorage:
+    """lost_after: seconds of silence. Raises ValueError."""
+    if lost_after < BEATS:
+        raise ValueError(f"--lost-after: {lost_after}, expected at least {BEATS} seconds")
+    attempts = MOST_ATTEMPTS
+    while True:
+        try:
+            return made_storage(url, lost_after)
+        except Exception as error:  # of whatever database driver it is
+            attempts -= 1
+            # Another worker makes the same tables at this moment.
+            meanwhile = any(word in str(error).lower() for word in ("exist", "unique", "duplicate"))
+            if not meanwhile or not attempts:
+                raise ValueError(f"--storage: {url}: {str(error).splitlines()[0]}") from error
+            time.sleep(POLL_SECONDS)
+
+
+def locked(url: str) -> IO | None:
+    """The lock of a storage that one worker has for itself; none of a server's. Raises
+    ValueError."""
+    if not url.startswith("sqlite:"):
+        return None
+    try:
+        lock = open(url.removeprefix("sqlite:///") + ".lock", "w")
+    except OSError as error:
+        raise ValueError(f"--storage: {url}: cannot be written to: {error.strerror}") from error
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        lock.close()
+        raise ValueError(
+            f"--storage: {url}: another worker has it, expected postgresql:// for several"
+        ) from error
+    return lock
+
+
+def made_storage(url: str, lost_after: int) -> optuna.storages.RDBStorage:
+    sqlite = url.startswith("sqlite:")
+    return optuna.storages.RDBStorage(
+        url,
+        engine_kwargs={"connect_args": {"timeout": 60}} if sqlite else {"pool_pre_ping": True},
+        heartbeat_interval=lost_after // BEATS,
+        grace_period=lost_after,
+        failed_trial_callback=optuna.storages.RetryFailedTrialCallback(max_retry=MOST_RETRIES),
+    )
+
+
+def sampler(name: str, seed: int, required: bool) -> optuna.samplers.BaseSampler:
+    constraints = (lambda trial: trial.user_attrs[VIOLATIONS]) if required else None
+    if name == "random":
+        return optuna.samplers.RandomSampler(seed=seed)
+    if name == "nsga2":
+        return optuna.samplers.NSGAIISampler(
+            population_size=24, seed=seed, constraints_func=constraints
+        )
+    return optuna.samplers.TPESampler(
+        seed=seed, multivariate=True, constraints_func=constraints, constant_liar=True
+    )
+
+
+@dataclasses.dataclass
+class Study:
+    """task: everything but the space that a result depends on. skips: why a configuration need not
+    be judged; empty where it must be. whole: all that were put in the queue, each once, in place of
+    a search."""
+
+    study: optuna.Study
+    space: Space
+    task: str
+    judge: Callable[[At], Judged]
+    skips: Callable[[At], str]
+    whole: bool
+    alone: bool  # no other script has it
+    asking: threading.Lock = dataclasses.field(default_factory=threading.Lock)
+    worker: str = dataclasses.field(default_factory=lambda: uuid.uuid4().hex)
+    stopped: threading.Event = dataclasses.field(default_factory=threading.Event)
+
+    def join(self, first: list[At]) -> None:
+        """Fills a new study's queue; or checks that one which is there is the same. Raises
+        ValueError."""
+        attributes = self.study.user_attrs
+        own = {SPACE: self.space.described(), TASK: self.task}
+        for name, value in own.items():
+            there = attributes.get(name)
+            if there is not None and json.dumps(there) != json.dumps(value):
+                raise ValueError(f"--study {self.study.study_name}: there is one of another {name}")
+        for name, value in own.items():
+            self.study.set_user_attr(name, value)
+        if self.alone:
+            for trial in self.trials(States.RUNNING):
+                self.enqueue(self.at_of(trial))
+                self.study.tell(trial.number, state=States.FAIL)
+        while not self.study.user_attrs.get(FILLED):
+            if self.may_fill():
+                there = {self.at_of(trial) for trial in self.trials()}
+                for at in dict.fromkeys(first):
+                    if at not in there:
+                        self.enqueue(at)
+                self.study.set_user_attr(FILLED, True)
+
+    def may_fill(self) -> bool:
+        """Whether it is this worker that fills the queue: the last one to claim it of those that
+        began at once. A claim that was not made good in time is void."""
+        name, since = self.study.user_attrs.get(CLAIM, ("", 0.0))
+        if name != self.worker and time.time() - since < CLAIM_SECONDS:
+            time.sleep(POLL_SECONDS)
+            return False
+        if name == self.worker:
+            return True
+        self.study.set_user_attr(CLAIM, (self.worker, time.time()))
+        time.sleep(2 * POLL_SECONDS)
+        return False
+
+    def enqueue(self, at: At) -> None:
+        self.study.enqueue_trial({a.name: i for a, i in zip(self.space.axes, at)})
+
+    def at_of(self, trial: optuna.trial.FrozenTrial) -> At:
+        given = {**trial.system_attrs.get("fixed_params", {}), **trial.params}
+        return tuple(given.get(axis.name, -1) for axis in self.space.axes)
+
+    def trials(self, *states: States) -> list[optuna.trial.FrozenTrial]:
+        return self.study.get_trials(deepcopy=False, states=states or None)
+
+    def done(self) -> dict[At, optuna.trial.FrozenTrial]:
+        """Each configuration that was judged, by its first trial."""
+        out: dict[At, optuna.trial.FrozenTrial] = {}
+        for trial in self.trials(States.COMPLETE, States.PRUNED):
+            if SAME_AS not in trial.user_attrs:
+                out.setdefault(self.at_of(trial), trial)
+        return out
+
+    def objective(self, trial: optuna.Trial) -> tuple[float, ...]:
+        at = tuple(
+            trial.suggest_int(axis.name, 0, len(axis.settings) - 1) for axis in self.space.axes
+        )
+        if other := self.done().get(at):
+            trial.set_user_attr(SAME_AS, other.number)
+            trial.set_user_attr(VIOLATIONS, other.user_attrs.get(VIOLATIONS, [1.0]))
+            if other.state == States.PRUNED:
+                raise optuna.TrialPruned
+            return tuple(other.values)
+        if reason := self.skips(at):
+            trial.set_user_attr(JUDGED, {"skipped": reason})
+            trial.set_user_attr(VIOLATIONS, [1.0])
+            raise optuna.TrialPruned
+        judged = self.judge(at)
+        trial.set_user_attr(VIOLATIONS, list(judged.violations) or [0.0])
+        trial.set_user_attr(JUDGED, dataclasses.asdict(judged))
+        if not judged.is_told() or not judged.drawn:
+            trial.set_user_attr(VIOLATIONS, [1.0])
+            raise optuna.TrialPruned
+        return judged.costs
+
+    def work(self, before: Callable[[], bool], after: Callable[[], None]) -> None:
+        """One worker: until there is nothing left to take up, or before() says so; after() behind
+        each that it took up. Whatever judging raises ends it."""
+        idle = 0
+        while not self.stopped.is_set() and before():
+            if self.whole and not self.trials(States.WAITING):
+                # What a lost worker had is for a moment neither running nor waiting.
+                idle = 0 if self.trials(States.RUNNING) else idle + 1
+                if len(self.done()) == self.space.size() or idle == MOST_IDLE:
+                    return
+                self.take_up_lost()
+                time.sleep(POLL_SECONDS)
+                continue
+            idle = 0
+            try:
+                self.judge_next()
+            except RuntimeError as error:
+                # Another worker was first to take up a lost trial (optuna#4862).
+                if "updat" not in str(error).lower():
+                    raise
+            after()
+
+    def judge_next(self) -> None:
+        if not self.alone:
+            self.study.optimize(self.objective, n_trials=1)
+            return
+        with self.asking:
+            trial = self.study.ask()
+        try:
+            self.study.tell(trial, self.objective(trial))
+        except optuna.TrialPruned:
+            self.study.tell(trial, state=States.PRUNED)
+
+    def take_up_lost(self) -> None:
+        if self.alone:
+            return
+        try:
+            optuna.storages.fail_stale_trials(self.study)
+        except RuntimeError:  # another worker was first
+            pass
+
+
+def unpacked(document: dict) -> Judged:
+    """Of what a trial keeps."""
+    lists = ("assignments", "costs", "values", "violations", "shown")
+    return Judged(**{k: tuple(v) if k in lists else v for k, v in document.items()})
+
 
 SAMPLED_EVERY = 4  # what the sampler proposes; between them what is next to the best
 MOST_PROPOSED = 20  # for each to be judged: then nearly all that is proposed need not be judged
@@ -182,32 +406,3 @@ def counts(trial: optuna.trial.FrozenTrial) -> bool:
 
 def is_within(at: At, other: At) -> bool:
     return all(a <= b for a, b in zip(at, other))
-
-
-def digests_of_files(work: Work) -> list[str]:
-    """Of the contents of scenes, cameras, configuration and memspecs. Not of their paths, which may
-    be others on another machine."""
-    task = work.judge.task
-    scenes = list(dict.fromkeys(scene for scene, _ in task.views))
-    settings = [s for axis in work.space.axes for setting in axis.settings for s in setting]
-    runs = [Run(scene, "", "", task.config, (*task.base, *settings)) for scene in scenes]
-    runs += [Run(scenes[0], config=r.reference) for r in task.requirements if r.reference]
-    return [content_digest(path) for run in runs for path in named_files(run)]
-
-
-def described(work: Work, program: str) -> str:
-    """All that a result depends on, but for the place in the space."""
-    task = work.judge.task
-    facts = {
-        "program": program,
-        "files": digests_of_files(work),
-        "configurations": "proposed" if work.arguments.search else "all",
-        "views": [[scene.name, number] for scene, number in task.views],
-        "size": task.size,
-        "config": task.config,
-        "base": list(task.base),
-        "objectives": [o.name for o in task.objectives],
-        "requirements": [r.text for r in task.requirements],
-        "shown": [measure.text for measure in task.shown],
-    }
-    return json.dumps(facts)

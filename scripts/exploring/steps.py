@@ -22,12 +22,11 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
-from exploring.axes import STRUCTURE, Assignments, label
+from exploring.axes import At, label
+from exploring.judging import Drawn, Judged, Machines, View
 from exploring.record import Work
-from exploring.judging import Drawn, Judged, View
-from exploring.space import At
 
 LEAST_GAIN = math.log(1.003)  # in what is required: what a step is worth taking for
 MOST_ROOM = 100.0  # where nothing is required of frames, or what is has no end
@@ -38,9 +37,6 @@ GIVEN_UP = 0.06  # worse on the views drawn, over their number: others may still
 AT_ONCE = 2  # views side by side
 PATIENCE = 2  # settings in a row that are no better, of what is chosen for one scene
 FINALISTS = 3
-
-
-Amount = Callable[[At], float]  # of a machine that there is
 
 
 class NoTime(Exception):
@@ -60,11 +56,10 @@ class Steps:
         self.work, self.space, self.judge = work, work.space, work.judge
         self.task = work.judge.task
         (self.objective,) = self.task.objectives
+        self.machines = Machines(self.space, self.judge)
         self.of_machines = self.task.of_machines()
         self.of_frames = [r for r in self.task.requirements if r not in self.of_machines]
         self.single = all(r.is_of_single_views() for r in self.of_frames)
-        self.machines: dict[Assignments, tuple[float, float] | None] = {}
-        self.backs: dict[tuple, tuple[int, float] | None] = {}
         self.looked: dict[At, int] = {}
         self.harm: dict[int, float] = {}
         self.seen: set[At] = set()
@@ -74,7 +69,7 @@ class Steps:
         """Into work.made. Raises ValueError where the preset is refused."""
         start = self.judge.start(self.space)
         try:
-            if self.size(start) is None:  # a view says why
+            if self.machines.size(start) is None:  # a view says why
                 self.look(start, self.task.views[:1])
                 return
             if self.task.of_the_machine():
@@ -84,48 +79,6 @@ class Steps:
         except NoTime:
             pass
         self.draw_finalists()
-
-    # What a machine takes: of what is to be small, or of what is allowed.
-
-    def machine(self, at: At) -> tuple[float, float] | None:
-        """What it takes, and how much of what is allowed; None: there is no such machine."""
-        machine = self.space.machine(at)
-        if machine not in self.machines:
-            views = self.judge.machine(machine)
-            self.machines[machine] = self.taken_by(views) if views else None
-        return self.machines[machine]
-
-    def taken_by(self, views: Sequence[dict]) -> tuple[float, float]:
-        share = 1 + max((r.violation(views) for r in self.of_machines), default=-1)
-        return self.objective.cost(views) if self.task.of_the_machine() else share, share
-
-    def size(self, at: At) -> float | None:
-        machine = self.machine(at)
-        return machine and machine[0]
-
-    def share(self, at: At) -> float | None:
-        """More than 1: too large."""
-        machine = self.machine(at)
-        return machine and machine[1]
-
-    def neighbour(self, at: At, which: int, step: int) -> At | None:
-        """The next one along an axis that there can be."""
-        moved = self.space.moved(at, which, step)
-        while moved and self.size(moved) is None:
-            moved = self.space.moved(moved, which, step)
-        return moved
-
-    def back(self, at: At, which: int, of: Amount) -> tuple[At, float] | None:
-        """The next one with less on an axis, and about how much that frees of size or share: as
-        much as it did for the last one that was alike in structure."""
-        alike = [n for axis, n in zip(self.space.axes, at) if axis.name in STRUCTURE]
-        key = (of.__name__, which, at[which], *alike)
-        if key not in self.backs:
-            back = self.neighbour(at, which, -1)
-            self.backs[key] = back and (back[which], of(at) - of(back))
-        if not (known := self.backs[key]):
-            return None
-        return self.space.moved(at, which, known[0] - at[which]), known[1]
 
     # Drawing.
 
@@ -204,7 +157,7 @@ class Steps:
             if views and self.room(views) >= 0:
                 return at
             more = views and self.roomier(at, self.hardest(views, watched), views)
-            if views and not more and self.share(at) > 1:
+            if views and not more and self.machines.share(at) > 1:
                 more = self.fitted(at, ())
             if not more:
                 self.work.made.remarks.append(
@@ -231,7 +184,9 @@ class Steps:
                 further = self.look(ahead[name], hardest)
                 gain = self.room(further) - room if further else 0
                 if gain >= LEAST_GAIN:
-                    worth[name] = gain / max(self.size(ahead[name]) - self.size(at), 1e-3)
+                    worth[name] = gain / max(
+                        self.machines.size(ahead[name]) - self.machines.size(at), 1e-3
+                    )
             if worth:
                 return ahead[max(worth, key=lambda name: worth[name])]
         return None
@@ -239,10 +194,10 @@ class Steps:
     def allowed_ahead(self, at: At, which: int) -> At | None:
         """The next one along an axis that is not too large: where cycles are to be small others
         make room for it."""
-        more = self.neighbour(at, which, 1)
+        more = self.machines.neighbour(at, which, 1)
         if more and not self.task.of_the_machine():
             return self.fitted(more, (which,))
-        return more if more and self.share(more) <= 1 else None
+        return more if more and self.machines.share(more) <= 1 else None
 
     def shrunk(self, at: At, watched: Sequence[View]) -> At:
         """No step back holds what is required on the views watched."""
@@ -251,7 +206,7 @@ class Steps:
         worth = {which: math.inf for which in range(len(at))}
         while worth:
             which = max(worth, key=lambda w: worth[w])
-            back = self.back(at, which, self.size)
+            back = self.machines.back(at, which, self.machines.size)
             views = self.look_until_missed(back[0], watched) if back and back[1] > 0 else ()
             left = self.room(views) if views else -math.inf
             if left < 0:
@@ -305,7 +260,7 @@ class Steps:
         few = self.views[:AT_ONCE]
         now = self.look(at, few)
         for which, axis in enumerate(self.space.axes):
-            if not axis.scope and (back := self.back(at, which, self.share)):
+            if not axis.scope and (back := self.machines.back(at, which, self.machines.share)):
                 views = self.look(back[0], few)
                 self.harm[which] = self.objective.worse(views, now) if views else math.inf
 
@@ -326,10 +281,12 @@ class Steps:
     def fitted(self, at: At, raised: Sequence[int]) -> At | None:
         """With steps back, but on the axes that were raised, until it is within what is allowed;
         None where that is not enough."""
-        while (size := self.share(at)) is not None and size > 1:
+        while (size := self.machines.share(at)) is not None and size > 1:
             prices: list[tuple[float, int, At]] = []
             for which in range(len(at)):
-                back = None if which in raised else self.back(at, which, self.share)
+                back = (
+                    None if which in raised else self.machines.back(at, which, self.machines.share)
+                )
                 if back and back[1] > 0:
                     harm = max(self.harm.get(which, UNKNOWN_HARM), BETTER)
                     # More than what is needed is worth nothing.
@@ -414,7 +371,7 @@ class Steps:
 
     def along(self, best: Point, which: int, step: int) -> Point:
         """As far along an axis as it gets better."""
-        while moved := self.neighbour(best.at, which, step):
+        while moved := self.machines.neighbour(best.at, which, step):
             fits = self.fitted(moved, (which,))
             worse, point = self.taken(fits, best) if fits else (math.inf, None)
             if step < 0 and math.isfinite(worse):
@@ -430,7 +387,7 @@ class Steps:
             return math.inf, None
         self.seen.add(at)
         worse, point = self.measure(at, best)
-        smaller = self.size(best.at) - self.size(at) > FREED
+        smaller = self.machines.size(best.at) - self.machines.size(at) > FREED
         return worse, point if point and worse < (BETTER if smaller else -BETTER) else None
 
     def stored_better(self, best: Point) -> Point:

@@ -11,14 +11,14 @@ import base64
 import dataclasses
 import pathlib
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from reporting import tables
 from reporting.charts import details, escaped, table
 from reporting.folder import read_table
 from report import Panel, page
 from tables import about_of, facts_of, made_sentence, markdown, table_of
-from runs.files import read_bytes, read_json
+from runs.files import content_digest, read_bytes, read_json
 
 README, QUESTIONS = "README.md", "questions.json"
 MOST_ROWS = 10  # of a table in the README
@@ -157,13 +157,42 @@ def faults(folder: pathlib.Path) -> list[str]:
     """Why these tables are not all of one program that can be had again."""
     said = []
     made = {name: facts_of(folder, name)["made"] for name in names(folder)}
-    if unnamed := [name for name, of in made.items() if not of["commits"]]:
-        said.append(f"{len(unnamed)} tables name no commit: {', '.join(unnamed)}")
+    nameless = [name for name, of in made.items() if not of["commits"]]
+    if typed := [name for name in nameless if not by_study(made[name]["command"])]:
+        by_hand = ", ".join(f"{name} (`{made[name]['command']}`)" for name in typed)
+        said.append(f"{len(typed)} tables name no commit, since no study writes them: {by_hand}")
+    if earlier := [name for name in nameless if name not in typed]:
+        again = ", ".join(f"{name} (--all {by_study(made[name]['command'])})" for name in earlier)
+        said.append(f"{len(earlier)} tables name no commit, to be made again: {again}")
     if unnamed := [name for name, of in made.items() if of["commits"] and not of["releases"]]:
         said.append(f"{len(unnamed)} tables name no release: {', '.join(unnamed)}")
     if changed := [name for name, of in made.items() if any(map(CHANGED.fullmatch, of["commits"]))]:
         said.append(f"{len(changed)} tables are of uncommitted sources: {', '.join(changed)}")
+    for what in ("commits", "releases"):
+        if mixed := [name for name, of in made.items() if len(of[what]) > 1]:
+            each = ", ".join(f"{name} ({', '.join(made[name][what])})" for name in mixed)
+            said.append(f"{len(mixed)} tables mix {what}: {each}")
+    said += [fault for name in made for fault in faults_of_sources(folder, name, made)]
     if len(found := releases(folder)) > 1:
         said.append(f"tables of {len(found)} programs, expected one")
         said += [f"{label}: {', '.join(of)}" for label, of in sorted(found.items())]
     return said
+
+
+def by_study(command: str) -> str:
+    """The study that a command of results.py runs; empty for another command."""
+    found = re.match(r"scripts/results\.py (\w+)", command)
+    return found[1] if found else ""
+
+
+def faults_of_sources(
+    folder: pathlib.Path, name: str, made: Mapping[str, Mapping]
+) -> Iterator[str]:
+    """Of the tables that a table is made of: its inputs NAME.csv."""
+    inputs = made[name]["inputs"]
+    sources = {of: of.removesuffix(".csv") for of in inputs if of.removesuffix(".csv") in made}
+    if unnamed := [source for source in sources.values() if not made[source]["releases"]]:
+        yield f"{name} is made of tables that name no release: {', '.join(unnamed)}"
+    for file in sources:
+        if content_digest(folder / file) != inputs[file]:
+            yield f"{name} was made of another {file} than there is"

@@ -16,8 +16,7 @@ from reporting import tables
 from reporting.charts import details, escaped
 from reporting.folder import Table, flat
 from runs.files import read_text
-from runs.front import pareto_front, pictures_differ, with_pictures
-from runs.simulations import value_at
+from runs.simulations import pareto_front, pictures_differ, value_at, with_pictures
 
 DONE = "done"
 STATUSES = (DONE, "refused", "failed")

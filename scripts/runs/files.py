@@ -94,6 +94,13 @@ def program_digest(binary: pathlib.Path) -> str:
     return digest.hexdigest()
 
 
+def files_of(path: pathlib.Path) -> list[pathlib.Path]:
+    """The file of that name, or all below the folder; none for what is neither."""
+    if path.is_dir():
+        return sorted(below for below in path.rglob("*") if below.is_file())
+    return [path] if path.is_file() else []
+
+
 def content_digest(path: pathlib.Path) -> str:
     """Read once for as long as size and time of change stay."""
     facts = path.stat()

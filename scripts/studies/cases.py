@@ -11,14 +11,13 @@ import itertools
 import json
 import pathlib
 import statistics
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import IO
 
 from runs import run_arguments
 from runs.keeper import Keeper
-from runs.scenes import Scene, find_scenes, shared_names
-from runs.simulations import Run, answered, binders, decibels, mean, mm2, view_numbers_there
-from studies.energy import components, joules
+from runs.scenes import Scene, answered, find_scenes, shared_names, view_numbers_there
+from runs.simulations import Run, binders, decibels, mean, mm2
 
 OBJECTS = ("truck", "playbot", "builtin:object")  # whatever their parameters
 SIZES, OBJECT_SIZES = ("640x360", "980x545"), ("640x360", "800x800")
@@ -74,7 +73,7 @@ def check_machines(arguments: argparse.Namespace) -> None:
 
 def find_cases(arguments: argparse.Namespace) -> list[Case]:
     """Raises ValueError for what is no scene, size, machine or view, or there twice."""
-    scenes = find_scenes(arguments.scenes or [*BUILT_IN, *shared_names()])
+    scenes = find_scenes(arguments.scenes or [*BUILT_IN, *shared_names()], arguments.cameras)
     check_sizes(arguments, scenes)
     check_machines(arguments)
     for scene in scenes:
@@ -211,7 +210,7 @@ def busiest_of_kernels(view: dict) -> float:
 
 
 def component_joules(view: dict) -> dict[str, float]:
-    parts = {name: joules(view, keys) for name, keys in components(view).items()}
+    parts = {name: joules_of(view, keys) for name, keys in components(view).items()}
     del parts["all"]
     return parts
 
@@ -279,3 +278,86 @@ def model_all(arguments: argparse.Namespace, runs: Sequence[Run]) -> list[tuple[
 
     with concurrent.futures.ThreadPoolExecutor(arguments.side_by_side) as pool:
         return list(pool.map(views, runs))
+
+
+# Components of energy that are neither logic nor on-chip memory.
+OTHER = {
+    "clock": ("clock_j",),
+    "leakage": ("logic_leakage_j", "sram_leakage_j"),
+    "DRAM": ("dram_j",),
+    "all": ("total_j",),
+}
+MEMORIES = ("SRAM: pixels", "SRAM: all else")
+
+
+def components(view: dict) -> dict[str, tuple[str, ...]]:
+    """Name of a row: the keys of the report's energy that it sums."""
+    area = {name: mm2 for name, mm2 in view["area_mm2"].items() if not isinstance(mm2, dict)}
+    logic = [name for name in area if name not in ("sram", "total")]
+    rows = {name: (f"{name}_j",) for name in logic if f"{name}_j" in view["energy"]}
+    elsewhere = {key for keys in [*rows.values(), *OTHER.values()] for key in keys}
+    # Numbers, not what is split up once more, such as dram_by_region_j.
+    taken = [k for k, of in view["energy"].items() if k.endswith("_j") and not isinstance(of, dict)]
+    memories = sorted(key for key in taken if key not in elsewhere)
+    pixels = tuple(key for key in memories if key == "pixel_state_j")
+    rest = tuple(key for key in memories if key != "pixel_state_j")
+    return {**rows, **dict(zip(MEMORIES, (pixels, rest))), **OTHER}
+
+
+def joules_of(view: dict, keys: Iterable[str]) -> float:
+    return sum(view["energy"].get(key, 0) for key in keys)
+
+
+# By scene, the cases of each: what every machine took.
+Found = Mapping[str, Sequence[Mapping[str, Measured]]]
+OfViews = Callable[[Measured], Sequence[float]]
+
+ALL_SIZES = "all"  # sizes
+
+
+def alone(m: Measured) -> Sequence[float]:
+    return m.seconds
+
+
+def overlapped(m: Measured) -> Sequence[float]:
+    return m.busiest_seconds
+
+
+def energy(m: Measured) -> Sequence[float]:
+    return m.joules
+
+
+WAYS = ((alone, alone), (overlapped, overlapped), (alone, overlapped), (energy, energy))
+
+
+def over_scenes(
+    found: Found, own: str, other: str, ours: OfViews, theirs: OfViews
+) -> tuple[float, float, float]:
+    """Each scene counts once: the geometric mean over its cases of what the means over their views
+    are to each other, then that over the scenes. Least and most: of single views."""
+    pairs = [[(ours(case[own]), theirs(case[other])) for case in of] for of in found.values()]
+    mean = statistics.geometric_mean(
+        statistics.geometric_mean(statistics.fmean(b) / statistics.fmean(a) for a, b in of_scene)
+        for of_scene in pairs
+    )
+    single = [b / a for of_scene in pairs for views in of_scene for a, b in zip(*views)]
+    return mean, min(single), max(single)
+
+
+def decibel_ends(cases: Sequence[Mapping[str, Measured]], machine: str) -> tuple:
+    """Least and most."""
+    values = [value for case in cases for value in case[machine].decibels]
+    return (min(values), max(values)) if values else (None, None)
+
+
+def size_groups(of: Sequence[Case], arguments: argparse.Namespace) -> dict[str, list[Case]]:
+    """The cases at the first of --sizes and --object-sizes, those at the second, ...; and all."""
+    by_place: dict[int, list[Case]] = {}
+    for case in of:
+        place = sizes_of(case.scene.name, arguments).index(case.size)
+        by_place.setdefault(place, []).append(case)
+    named = {
+        ", ".join(sorted({case.size for case in some})): some
+        for _, some in sorted(by_place.items())
+    }
+    return {**(named if len(named) > 1 else {}), ALL_SIZES: list(of)}

@@ -32,31 +32,29 @@ import statistics
 from collections.abc import Callable, Mapping, Sequence
 
 import tables
-from tables import SCENE, SIZE, Column, Made, Spread
 from runs import run_arguments
+from runs.keeper import swept
 from runs.simulations import MB, MJ, Run
-from runs.sweep_server import swept
 from studies import cases
 from studies.cases import (
-    Case,
-    Entry,
+    ALL_SIZES,
     GPU,
     KINDS,
     MODEL,
+    WAYS,
+    Case,
+    Entry,
+    Found,
     Measured,
+    decibel_ends,
     model_all,
     modelled,
+    over_scenes,
     simulated,
-    sizes_of,
+    size_groups,
 )
+from tables import SCENE, SIZE, Column, Made, Spread, Study
 
-JOBS = ("results.py compare_machines",)
-
-# By scene, the cases of each: what every machine took.
-Found = Mapping[str, Sequence[Mapping[str, Measured]]]
-OfViews = Callable[[Measured], Sequence[float]]
-
-ALL_SIZES = "all"  # sizes
 PAIR = (
     Column("machine", "preset"),
     Column("than", "preset, or the modelled GPU, that it is held against"),
@@ -141,41 +139,6 @@ PUBLISHED = {
 # Held against each other in spite of what they blend in, since one is the default and the other
 # what is published.
 ACROSS_PRECISIONS = (("exact", "gscore"),)
-
-
-def alone(m: Measured) -> Sequence[float]:
-    return m.seconds
-
-
-def overlapped(m: Measured) -> Sequence[float]:
-    return m.busiest_seconds
-
-
-def energy(m: Measured) -> Sequence[float]:
-    return m.joules
-
-
-WAYS = ((alone, alone), (overlapped, overlapped), (alone, overlapped), (energy, energy))
-
-
-def over_scenes(
-    found: Found, own: str, other: str, ours: OfViews, theirs: OfViews
-) -> tuple[float, float, float]:
-    """Each scene counts once: the geometric mean over its cases of what the means over their views
-    are to each other, then that over the scenes. Least and most: of single views."""
-    pairs = [[(ours(case[own]), theirs(case[other])) for case in of] for of in found.values()]
-    mean = statistics.geometric_mean(
-        statistics.geometric_mean(statistics.fmean(b) / statistics.fmean(a) for a, b in of_scene)
-        for of_scene in pairs
-    )
-    single = [b / a for of_scene in pairs for views in of_scene for a, b in zip(*views)]
-    return mean, min(single), max(single)
-
-
-def decibel_ends(cases: Sequence[Mapping[str, Measured]], machine: str) -> tuple:
-    """Least and most."""
-    values = [value for case in cases for value in case[machine].decibels]
-    return (min(values), max(values)) if values else (None, None)
 
 
 def what_it_is(own: Measured, name: str, other: Measured) -> str:
@@ -396,19 +359,6 @@ def measure(arguments: argparse.Namespace, of: Sequence[Case]) -> tuple[list[Ent
     return entries, measured
 
 
-def size_groups(of: Sequence[Case], arguments: argparse.Namespace) -> dict[str, list[Case]]:
-    """The cases at the first of --sizes and --object-sizes, those at the second, ...; and all."""
-    by_place: dict[int, list[Case]] = {}
-    for case in of:
-        place = sizes_of(case.scene.name, arguments).index(case.size)
-        by_place.setdefault(place, []).append(case)
-    named = {
-        ", ".join(sorted({case.size for case in some})): some
-        for _, some in sorted(by_place.items())
-    }
-    return {**(named if len(named) > 1 else {}), ALL_SIZES: list(of)}
-
-
 def add_arguments(to: run_arguments.Parser) -> None:
     cases.add_arguments(to, MACHINES, [4, 8])
     run_arguments.add_side_by_side(to)
@@ -436,3 +386,8 @@ def make(arguments: argparse.Namespace) -> None:
     shown = [e for e in entries if e.machine in (GPU, "gscore")]
     write("characterisation", CHARACTER_COLUMNS, list(map(character_row, shown)))
     tables.draw_beside(arguments.out, *FIGURES)
+
+
+COMPARE_MACHINES = Study(
+    "compare_machines", __doc__, ("results.py compare_machines",), add_arguments, make
+)

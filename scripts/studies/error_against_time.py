@@ -25,38 +25,149 @@ import tempfile
 from collections.abc import Iterator, Sequence
 
 import tables
-from tables import SCENE, VIEW, Column
-from runs import run_arguments, simulations
-from runs.keeper import Fitted, Fitting, Keeper
-from runs.scenes import Scene, find_scenes
-from runs.simulations import (
-    MJ,
+from runs import run_arguments
+from runs.keeper import Keeper, swept
+from runs.scenes import (
+    BINARY,
     Failure,
-    Outcome,
-    Run,
+    Scene,
     answered,
-    asked_mb,
-    cycles,
-    decibels,
-    joules,
-    mm2,
+    find_scenes,
     program_provenance,
     view_numbers_there,
 )
-from runs.sweep_server import swept
-from studies import subjects
-from studies.error_points import PAPER, PRESETS, Point, points
-from studies.subjects import JudgedFrames, Subject, target_pictures
-
-JOBS = (
-    "results.py error_against_time truck yard platform park --diagrams image",
-    "results.py error_against_time truck yard platform park --diagrams tuning "
-    "--train-steps 3000",
-    "results.py error_against_time truck yard platform park --diagrams renderers",
+from runs.simulations import (
+    MJ,
+    Outcome,
+    Run,
+    asked_mb,
+    cycles,
+    decibels,
+    group_assignments,
+    joules,
+    mm2,
 )
+from studies import subjects
+from studies.fitting import dataset_folders, make_error_tuning, short_tuning
+from studies.quality import JudgedFrames, target_pictures
+from studies.subjects import Subject
+from tables import SCENE, VIEW, Column, Study
 
-PROGRAM = simulations.BINARY.with_name("bench_renderers")
-LOOKS = 8  # at the test views, while something is tuned or trained
+EXACT, PAPER, TILES = "exact", "paper", "tiles"
+PRESETS = {EXACT: "exact", PAPER: "paper_no_vq", TILES: "gscore_fp32_keys"}
+FLOATS = "framebuffer=rgb32f"  # so that errors below those of 8 bits are seen
+VQ = ("storage.encoding=vq", "sram.codebook_bytes=256000")
+GROUPS = ("32", "48", "64", "96", "128", "160x120")
+GROUP_OF_PRESET = {EXACT: "96", PAPER: "64"}
+VOXELS = (0.25, 0.5, 2, 4)  # times the preset's side
+AS_PRESET = "as the preset"
+
+
+@dataclasses.dataclass(frozen=True)
+class Point:
+    """knob: what is moved, value: where to. settings: over preset and base; memories are fitted."""
+
+    order: str
+    knob: str
+    value: str
+    settings: tuple[str, ...]
+    preset: str = ""
+
+    def config(self) -> str:
+        return self.preset or PRESETS[self.order]
+
+    def overrides(self) -> tuple[str, ...]:
+        return (FLOATS, *self.settings)
+
+
+def blended(precision: str) -> str:
+    return f"rendering.precision={precision}"
+
+
+def moved(order: str, knob: str, key: str, *values: object) -> Iterator[Point]:
+    for value in values:
+        yield Point(order, knob, str(value), (f"{key}={value}",))
+
+
+def grouped(order: str) -> Iterator[Point]:
+    for shape in GROUPS:
+        if shape != GROUP_OF_PRESET[order]:
+            yield Point(order, "group px", shape, group_assignments(shape))
+
+
+def merged() -> Iterator[Point]:
+    for policy, name, entries in (
+        ("spill", "", (128, 2048)),
+        ("blend_early", ", early", (128, 256, 512, 1024)),
+    ):
+        for n in entries:
+            settings = (f"merge.entries={n}", f"merge.on_overflow={policy}")
+            yield Point(EXACT, "merge", f"{n}{name}", settings)
+
+
+def chunked() -> Iterator[Point]:
+    """FIFOs of the coarse filters hold two chunks, as in the preset: with less room a larger chunk
+    would be measured by its wait."""
+    for n in (4, 16, 32, 64):
+        settings = (f"storage.chunk_gaussians={n}", f"hfu.candidate_fifo_entries={2 * n}")
+        yield Point(EXACT, "chunk", str(n), settings)
+
+
+def exact_points() -> Iterator[Point]:
+    yield Point(EXACT, AS_PRESET, "", ())
+    yield from grouped(EXACT)
+    yield from chunked()
+    yield from merged()
+    yield Point(EXACT, "encoding", "half", ("storage.encoding=half",))
+    yield Point(EXACT, "encoding", "vq", VQ)
+    yield from (Point(EXACT, "precision", p, (blended(p),)) for p in ("fp16", "fixed16"))
+    yield Point(EXACT, "finishing", "off", ("rendering.saturation_feedback=false",))
+    yield Point(EXACT, "pixels", "rgb8", ("framebuffer=rgb8",))
+    half = (blended("fp16"), "storage.encoding=half")
+    yield Point(EXACT, "combined", "fp16, half", half)
+    yield Point(EXACT, "combined", "fp16, half, rgb8", (*half, "framebuffer=rgb8"))
+    yield Point(EXACT, "combined", "fixed16, half", (blended("fixed16"), "storage.encoding=half"))
+    early = ("merge.entries=512", "merge.on_overflow=blend_early")
+    yield Point(EXACT, "combined", "fp16, half, early", (*half, *early))
+    yield Point(EXACT, "combined", "fp16, vq", (blended("fp16"), *VQ))
+    yield Point(EXACT, "combined", "exact_fp16", (), "exact_fp16")
+    yield Point(EXACT, "combined", "exact_wide", (), "exact_wide")
+
+
+def paper_points(voxel: float) -> Iterator[Point]:
+    """voxel: side that the preset takes for the scene, world units."""
+    yield Point(PAPER, AS_PRESET, "", ())
+    yield from grouped(PAPER)
+    for factor in VOXELS:
+        side = f"storage.voxel_size={factor * voxel:g}"
+        yield Point(PAPER, "voxel", f"x {factor:g}", (side,))
+    yield from moved(PAPER, "rays", "vsu.ray_step_px", 1, 4)
+    whole = ("vsu.visit_gaussians=0", "sorting.buffer_entries=1024")
+    yield Point(PAPER, "voxels cut", "never", whole)
+    yield Point(PAPER, "encoding", "half", ("storage.encoding=half",))
+    yield Point(PAPER, "encoding", "vq", VQ)
+    yield Point(PAPER, "precision", "fp32", (blended("fp32"), "rendering.cluster_lanes=190"))
+    yield Point(PAPER, "finishing", "off", ("rendering.saturation_feedback=false",))
+    yield Point(PAPER, "pixels", "rgb8", ("framebuffer=rgb8",))
+    fast = (*group_assignments("160x120"), "hfus=6", "vsu.ray_step_px=4")
+    yield Point(PAPER, "combined", "160x120, 6 HFUs, rays 4", fast)
+    larger = (*fast, f"storage.voxel_size={2 * voxel:g}")
+    yield Point(PAPER, "combined", "the same, voxels x 2", larger)
+
+
+def tile_points() -> Iterator[Point]:
+    yield Point(TILES, AS_PRESET, "", ())
+    yield Point(TILES, "precision", "fixed16", (blended("fixed16"),))
+    yield Point(TILES, "precision", "fp32", (), "gscore_lossless")
+    yield Point(TILES, "combined", "gscore", (), "gscore")
+    yield Point(TILES, "pixels", "rgb8", ("framebuffer=rgb8",))
+
+
+def points(voxel: float) -> list[Point]:
+    return [*exact_points(), *paper_points(voxel), *tile_points()]
+
+
+PROGRAM = BINARY.with_name("bench_renderers")
 PSNR_COLUMN = Column("PSNR dB", "beside the reference picture; inf: equal", "dB", ".2f")
 IMAGE_COLUMNS = (
     SCENE,
@@ -74,17 +185,6 @@ IMAGE_COLUMNS = (
     Column("mJ", "of the frame", "mJ", ".4f"),
     Column("mm2", "area of the machine", "mm2", ".3f"),
     Column("M cycles", "of the frame", "10^6 cycles", ".4f"),
-)
-TUNING_COLUMNS = (
-    Column("what", "tuning, or training"),
-    Column("of", "scene or data set"),
-    Column("moved", "rate, or budget of Gaussians"),
-    Column("to", "its value", "", "g"),
-    Column("step", "of the fitting", "", "d"),
-    Column("seconds", "since the beginning", "s", ".2f"),
-    Column("Gaussians", "of the scene then", "", ","),
-    Column("PSNR dB", "of test views, mean", "dB", ".3f"),
-    Column("SSIM", "of test views, mean", "", ".5f"),
 )
 RENDERER_COLUMNS = (
     SCENE,
@@ -138,7 +238,7 @@ def tuned_frames(scene: Scene, arguments: argparse.Namespace) -> Iterator[tuple[
     if not scene.cameras:
         print(f"{scene.name}: no file of cameras, not tuned", file=sys.stderr)
         return
-    (fitted,) = subjects.kept_fittings(arguments, 1).all([tuning(scene, 1, arguments)])
+    (fitted,) = subjects.kept_fittings(arguments, 1).all([short_tuning(scene, 1, arguments)])
     subject = Subject(scene.name, scene.spec, scene.cameras, arguments.size)
     judged = JudgedFrames(arguments, target_pictures(arguments, subject), 1)
     as_preset = Point(PAPER, "tuning", "before", ())
@@ -174,68 +274,15 @@ def make_image(scenes: list[Scene], arguments: argparse.Namespace) -> None:
     tables.draw_beside(arguments.out, "error_image")
 
 
-def looks_every(steps: int) -> tuple[str, ...]:
-    return ("--steps", str(steps), "--test-every", str(max(1, steps // LOOKS)))
-
-
-def tuning(scene: Scene, rate: float, arguments: argparse.Namespace) -> Fitting:
-    """To paper order in single precision; no L_CBP, which slows a step and gains no decibel."""
-    size, between = arguments.tuning_size, arguments.between
-    subject = Subject(scene.name, scene.spec, scene.cameras, size, between)
-    words = (scene.spec, "--boundary", "--config", subjects.PAPER, "--beta", "0")
-    words += subjects.tuned_in("fp32")
-    words += (*subject.target_words(), "--rate", f"{rate:g}", *looks_every(arguments.steps))
-    return Fitting(f"{scene.name} short rate {rate:g}", "tune", words)
-
-
-def training(folder: pathlib.Path, budget: int, arguments: argparse.Namespace) -> Fitting:
-    words = (str(folder), "--downscale", f"{arguments.downscale:g}", "--gaussians", str(budget))
-    words += looks_every(arguments.train_steps)
-    return Fitting(f"{folder.name} short of {budget}", "train", words)
-
-
-def tuning_rows(fitted: Fitted, *facts: object) -> list[tuple]:
-    return [
-        (
-            *(*facts, int(look["step"]), float(look["seconds"]), int(look["gaussians"])),
-            *(float(look["test_psnr_db"]), float(look["test_ssim"])),
+def check_read_by_benchmarks(scene: Scene) -> None:
+    """Raises ValueError for other forms than .ply with a .json of cameras."""
+    if scene.cameras and not scene.spec.endswith(".ply"):
+        raise ValueError(
+            f"{scene.spec}: renderers take a .ply, expected what `streaminggs convert {scene.spec} "
+            f"{scene.name}.ply` writes"
         )
-        for look in fitted.log
-    ]
-
-
-def dataset_folders(arguments: argparse.Namespace) -> list[pathlib.Path]:
-    """Raises ValueError for what is no data set or there twice, and for nothing to fit."""
-    folders = []
-    for name in arguments.datasets:
-        folder = subjects.dataset_folder(name)
-        if not folder:
-            raise ValueError(f"{name}: no data set; expected {subjects.DATASET_FORMS}")
-        folders.append(folder)
-    if not folders and not arguments.steps:
-        raise ValueError("--steps: 0 and no --datasets: nothing to fit")
-    run_arguments.check_once("--datasets", [folder.resolve() for folder in folders])
-    return folders
-
-
-def make_tuning(scenes: list[Scene], arguments: argparse.Namespace) -> None:
-    """One fitting at a time, since their seconds count."""
-    folders = dataset_folders(arguments)
-    kept = subjects.kept_fittings(arguments, 1)
-    asked = [
-        (("tuning", scene.name, "rate", rate), tuning(scene, rate, arguments))
-        for scene in scenes
-        for rate in (arguments.rates if arguments.steps else ())
-    ] + [
-        (("training", folder.name, "budget", budget), training(folder, budget, arguments))
-        for folder in folders
-        for budget in arguments.budgets
-    ]
-    fitted = kept.all([fitting for _, fitting in asked])
-    rows = [row for (facts, _), each in zip(asked, fitted) for row in tuning_rows(each, *facts)]
-    by = tables.made(arguments.streaminggs, [kept.provenance], [*scenes, *folders])
-    tables.write(arguments.out, "error_tuning", by, TUNING_COLUMNS, rows)
-    tables.draw_beside(arguments.out, "error_tuning")
+    if scene.cameras and not pathlib.Path(scene.cameras).is_file():
+        raise ValueError(f"{scene.cameras}: renderers take a .json of cameras, expected one")
 
 
 def laid_out(scene: Scene, folder: pathlib.Path) -> str:
@@ -275,16 +322,14 @@ def make_renderers(scenes: list[Scene], arguments: argparse.Namespace) -> None:
             for view in arguments.view.split(","):
                 words = ["--threads", str(threads), "--size", arguments.size, "--view", view]
                 facts = [*words, scene.name, scene.spec, scene.cameras]
-                _, found = keeper.kept(
-                    scene.name, facts, lambda *_: timed(program, scene, words)
-                )
+                _, found = keeper.kept(scene.name, facts, lambda *_: timed(program, scene, words))
                 rows += found
     by = tables.made(program, [program_provenance(arguments.streaminggs)], scenes)
     tables.write(arguments.out, "error_renderers", by, RENDERER_COLUMNS, rows)
     tables.draw_beside(arguments.out, "error_renderers")
 
 
-DIAGRAMS = {"image": make_image, "tuning": make_tuning, "renderers": make_renderers}
+DIAGRAMS = {"image": make_image, "tuning": make_error_tuning, "renderers": make_renderers}
 
 
 def check(arguments: argparse.Namespace) -> None:
@@ -351,10 +396,26 @@ def add_arguments(to: run_arguments.Parser) -> None:
 
 def make(arguments: argparse.Namespace) -> None:
     check(arguments)
-    scenes = find_scenes(arguments.scenes)
+    scenes = find_scenes(arguments.scenes, arguments.cameras)
     for scene in scenes:
         view_numbers_there(arguments.streaminggs, scene, arguments.view)
+        if "renderers" in arguments.diagrams:
+            check_read_by_benchmarks(scene)
     if "tuning" in arguments.diagrams:
         dataset_folders(arguments)
     for name in arguments.diagrams:
         DIAGRAMS[name](scenes, arguments)
+
+
+ERROR_AGAINST_TIME = Study(
+    "error_against_time",
+    __doc__,
+    (
+        "results.py error_against_time truck yard platform park --diagrams image",
+        "results.py error_against_time truck yard platform park --diagrams tuning "
+        "--train-steps 3000",
+        "results.py error_against_time truck yard platform park --diagrams renderers",
+    ),
+    add_arguments,
+    make,
+)

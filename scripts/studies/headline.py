@@ -2,15 +2,17 @@
 other studies made. Areas come from a short run of each preset. Makes
 
   headline         speed-up, energy and area of each pair, and what their pictures are
-  headline_scenes  speed-up and energy by scene, which the figure headline shows
+  headline_scenes  speed-up and energy by scene of frames alone, which the figure headline shows
 
 Scenes are trained, none is built in. `compare_machines_cases` has pairs of one precision; neither
 machine asks for tuning. `quality_machine` has scenes that were tuned to either order, with codebooks.
+`fair_fight_summary` has what a search found for either order in one area.
 """
 
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import json
 import pathlib
 import statistics
@@ -18,18 +20,34 @@ import tempfile
 from collections.abc import Mapping, Sequence
 
 import tables
-from tables import SCENE, Column, Made
-from runs import run_arguments, simulations
+from runs import run_arguments
 from runs.files import content_digest, read_json, write_text
-from runs.scenes import REPOSITORY, find_scene
+from runs.scenes import REPOSITORY, answered, find_scene
 from runs.simulations import Run
-
-JOBS = ("results.py headline",)
+from tables import SCENE, Column, Made, Study
 
 Pair = tuple[str, str]  # machine, baseline
-Ratios = Mapping[str, tuple[float, float]]  # by scene: speed-up, energy
+Ratio = tuple[float, float | None]  # speed-up; energy, None: not measured
+Ratios = Mapping[str, Ratio]  # by scene
+Cells = Mapping[str, str]
 
-CASES, TUNED = "compare_machines_cases", "quality_machine"
+CASES, TUNED, SEARCHED = "compare_machines_cases", "quality_machine", "fair_fight_summary"
+READS = {"compare_machines": [CASES], "quality_table": [TUNED], "fair_fight": [SEARCHED]}
+
+
+@dataclasses.dataclass(frozen=True)
+class Frames:
+    """How frames follow each other and with which memory; columns of CASES with the ratios."""
+
+    text: str
+    channels: int
+    gb_s: str
+    speed: str
+    energy: str = ""
+
+
+ALONE = Frames("alone, 25.6 GB/s", 4, "25.6", "times as fast", "times less energy")
+OVERLAPPED = Frames("overlapped, 51.2 GB/s", 8, "51.2", "both overlapped")
 # From CASES: what both pictures of a pair are.
 PICTURES: Mapping[Pair, str] = {
     ("exact_fast", "gscore_lossless"): "both: the reference picture",
@@ -39,17 +57,26 @@ PICTURES: Mapping[Pair, str] = {
 # From TUNED: both have codebooks, each of a scene that was tuned to it.
 TUNED_PAIR = ("exact_vq", "paper")
 TUNED_TO = "quantisation-aware"
-GB_S = "25.6"
+# From SEARCHED: what was found for each order.
+ORDERS = ("exact", "paper")
+SEARCHED_PAIR = "exact order / paper order, both searched"
 TECHNOLOGY = REPOSITORY / "testbench" / "cost" / "technology_32nm.json"
 AREA_RUN = ("builtin:object?n=2000", "96x96")  # areas of presets hardly depend on the scene
 
-PAIR = Column("machine / baseline", "presets")
+PAIR = Column("machine / baseline", "presets, or what a search found for an order")
 COLUMNS = (
     PAIR,
+    Column("frames", "one after the other, or begun as fast as the busiest part lets: a bound"),
     Column("speed-up", "time of the baseline over the machine's", "", ".2f"),
-    Column("energy, baseline over machine", "joules of a frame", "", ".2f"),
-    Column("area ratio", "machine over baseline, without the memory's PHY and controller", "", ".2f"),
-    Column("area ratio with PHY and controller", "of the memory's channels", "", ".2f"),
+    Column(
+        "energy, baseline over machine", "joules of a frame alone; empty: overlapped", "", ".2f"
+    ),
+    Column(
+        "area ratio", "machine over baseline, without the memory's PHY and controller", "", ".2f"
+    ),
+    Column(
+        "area ratio with PHY and controller", "of the memory's channels; empty: unknown", "", ".2f"
+    ),
     Column("picture", "8 bits a channel; dB beside photographs or the scene's own pictures"),
 )
 SCENE_COLUMNS = (
@@ -64,25 +91,26 @@ def named(pair: Pair) -> str:
     return " / ".join(pair)
 
 
-def compared(rows: Sequence[Mapping[str, str]], pair: Pair) -> Ratios:
+def compared(rows: Sequence[Cells], pair: Pair, frames: Frames) -> Ratios:
     """Raises ValueError where no trained scene has this pair."""
-    sizes: dict[str, list[tuple[float, float]]] = {}
+    sizes: dict[str, list[Ratio]] = {}
     for row in rows:
         trained = not row["scene"].startswith("builtin:")
-        if trained and row["GB/s"] == GB_S and (row["machine"], row["than"]) == pair:
-            found = float(row["times as fast"]), float(row["times less energy"])
-            sizes.setdefault(row["scene"], []).append(found)
+        if trained and row["GB/s"] == frames.gb_s and (row["machine"], row["than"]) == pair:
+            energy = float(row[frames.energy]) if frames.energy else None
+            sizes.setdefault(row["scene"], []).append((float(row[frames.speed]), energy))
     if not sizes:
-        raise ValueError(f"{CASES}.csv: no trained scene of {named(pair)} at {GB_S} GB/s")
+        raise ValueError(f"{CASES}.csv: no trained scene of {named(pair)} at {frames.gb_s} GB/s")
     return {scene: geometric(of) for scene, of in sizes.items()}
 
 
-def geometric(pairs: Sequence[tuple[float, float]]) -> tuple[float, float]:
-    faster, frugal = (statistics.geometric_mean(values) for values in zip(*pairs))
-    return faster, frugal
+def geometric(ratios: Sequence[Ratio]) -> Ratio:
+    speeds, energies = zip(*ratios)
+    energy = None if None in energies else statistics.geometric_mean(energies)
+    return statistics.geometric_mean(speeds), energy
 
 
-def tuned_rows(rows: Sequence[Mapping[str, str]], preset: str) -> dict[str, Mapping[str, str]]:
+def tuned_rows(rows: Sequence[Cells], preset: str) -> dict[str, Cells]:
     """By scene. Raises ValueError where there are none."""
     found = {r["scene"]: r for r in rows if (r["preset"], r["tuned"]) == (preset, TUNED_TO)}
     if not found:
@@ -90,7 +118,7 @@ def tuned_rows(rows: Sequence[Mapping[str, str]], preset: str) -> dict[str, Mapp
     return found
 
 
-def tuned(rows: Sequence[Mapping[str, str]]) -> tuple[Ratios, str]:
+def tuned(rows: Sequence[Cells]) -> tuple[Ratios, str]:
     """And both pictures."""
     own, other = (tuned_rows(rows, preset) for preset in TUNED_PAIR)
     ratios = {
@@ -102,18 +130,43 @@ def tuned(rows: Sequence[Mapping[str, str]]) -> tuple[Ratios, str]:
     return ratios, f"{text[0]}, baseline {text[1]}"
 
 
-def area_mm2(program: pathlib.Path, preset: str, technology: pathlib.Path) -> tuple[float, dict]:
+def searched_row(rows: Sequence[Cells]) -> tuple:
+    """Of what was found for either order, over the sizes. Its area is without PHY and controller.
+    Raises ValueError where a search is missing."""
+    own, other = (
+        {row["size px"]: row for row in rows if row["machine"].startswith(f"{order}, ")}
+        for order in ORDERS
+    )
+    if not own or own.keys() != other.keys():
+        raise ValueError(
+            f"{SEARCHED}.csv: got no machine of each size that was found for each order"
+        )
+
+    def over(column: str) -> float:
+        return statistics.geometric_mean(
+            float(other[size][column]) / float(own[size][column]) for size in own
+        )
+
+    ends = [float(row[f"PSNR dB, {end}"]) for row in other.values() for end in ("least", "most")]
+    pictures = f"the reference picture, baseline {min(ends):.1f} .. {max(ends):.1f} dB"
+    ratios = (over("M cycles"), over("mJ"), 1 / over("mm2"), None)
+    return (SEARCHED_PAIR, ALONE.text, *ratios, pictures)
+
+
+def area_mm2(
+    program: pathlib.Path, preset: str, channels: int, technology: pathlib.Path
+) -> tuple[float, dict]:
     """And the provenance."""
     scene, size = AREA_RUN
-    run = Run(find_scene(scene), size=size, config=preset)
+    run = Run(find_scene(scene), size=size, config=preset, overrides=(f"dram.channels={channels}",))
     with tempfile.TemporaryDirectory(prefix="streaminggs-") as out:
         words = [*run.arguments(), "--technology", str(technology), "--out", out]
-        simulations.answered(program, "simulate", words, run.label())
+        answered(program, "simulate", words, run.label())
         (view,) = read_json(pathlib.Path(out) / "report.json")["views"]
     return view["area_mm2"]["total"], view["provenance"]
 
 
-def area_ratios(program: pathlib.Path, pair: Pair) -> tuple[list[float], list[dict]]:
+def area_ratios(program: pathlib.Path, pair: Pair, channels: int) -> tuple[list[float], list[dict]]:
     """Without and with PHY and controller of the memory."""
     ratios, provenances = [], []
     for counted in (False, True):
@@ -122,7 +175,9 @@ def area_ratios(program: pathlib.Path, pair: Pair) -> tuple[list[float], list[di
         with tempfile.TemporaryDirectory(prefix="streaminggs-") as folder:
             technology = pathlib.Path(folder) / TECHNOLOGY.name
             write_text(technology, json.dumps(table))
-            (own, of_own), (other, _) = (area_mm2(program, preset, technology) for preset in pair)
+            (own, of_own), (other, _) = (
+                area_mm2(program, preset, channels, technology) for preset in pair
+            )
         ratios.append(own / other)
         provenances.append(of_own)
     return ratios, provenances
@@ -130,9 +185,11 @@ def area_ratios(program: pathlib.Path, pair: Pair) -> tuple[list[float], list[di
 
 def about(compared_scenes: Sequence[str], tuned_scenes: Sequence[str]) -> str:
     return (
-        f"Geometric means over trained scenes, frames alone, {GB_S} GB/s. First rows: "
-        f"{', '.join(compared_scenes)}, two sizes each. Last row: {', '.join(tuned_scenes)}, small "
-        "pictures, each tuned to either machine; dB beside photographs or own pictures."
+        "Geometric means over trained scenes. Beside gscore: "
+        f"{', '.join(compared_scenes)}, two sizes each. Overlapped frames are a bound that no machine "
+        f"here reaches. {named(TUNED_PAIR)}: {', '.join(tuned_scenes)}, small pictures, each tuned to "
+        "either machine; dB beside photographs or own pictures. Both searched: untuned scenes at two "
+        "sizes, each order with the machine that a search found in the area of paper."
     )
 
 
@@ -143,25 +200,35 @@ def add_arguments(to: run_arguments.Parser) -> None:
         type=pathlib.Path,
         default=REPOSITORY / "traces" / "results",
         metavar="FOLDER",
-        help=f"with {CASES} and {TUNED}",
+        help=f"with {CASES}, {TUNED} and {SEARCHED}",
     )
     run_arguments.add_program(to)
 
 
 def make(arguments: argparse.Namespace) -> None:
-    cases, states = (tables.read_rows(arguments.tables, name) for name in (CASES, TUNED))
-    ratios = {pair: compared(cases, pair) for pair in PICTURES}
-    ratios[TUNED_PAIR], of_tuned = tuned(states)
-    pictures = {**PICTURES, TUNED_PAIR: of_tuned}
-    areas = {pair: area_ratios(arguments.streaminggs, pair) for pair in pictures}
-    rows = [
-        (named(pair), *geometric(list(ratios[pair].values())), *areas[pair][0], pictures[pair])
-        for pair in pictures
+    read = {name: tables.read_rows(arguments.tables, name) for name in (CASES, TUNED, SEARCHED)}
+    of_tuned, tuned_pictures = tuned(read[TUNED])
+    ratios = {
+        **{(pair, ALONE): compared(read[CASES], pair, ALONE) for pair in PICTURES},
+        **{(pair, OVERLAPPED): compared(read[CASES], pair, OVERLAPPED) for pair in PICTURES},
+        (TUNED_PAIR, ALONE): of_tuned,
+    }
+    pictures = {**PICTURES, TUNED_PAIR: tuned_pictures}
+    rows, provenances = [], []
+    for (pair, frames), of_scenes in ratios.items():
+        areas, told = area_ratios(arguments.streaminggs, pair, frames.channels)
+        means = geometric(list(of_scenes.values()))
+        rows.append((named(pair), frames.text, *means, *areas, pictures[pair]))
+        provenances += told
+    rows.append(searched_row(read[SEARCHED]))
+    scenes = [
+        (named(pair), scene, *of)
+        for (pair, frames), of_scenes in ratios.items()
+        if frames is ALONE
+        for scene, of in of_scenes.items()
     ]
-    scenes = [(named(pair), scene, *of) for pair in ratios for scene, of in ratios[pair].items()]
-    by = made_from(arguments, [p for _, provenances in areas.values() for p in provenances])
-    first = next(iter(PICTURES))
-    text = about(list(ratios[first]), list(ratios[TUNED_PAIR]))
+    by = made_from(arguments, provenances)
+    text = about(list(ratios[next(iter(PICTURES)), ALONE]), list(of_tuned))
     tables.write(arguments.out, "headline", by, COLUMNS, rows, text)
     tables.write(arguments.out, "headline_scenes", by, SCENE_COLUMNS, scenes, text)
 
@@ -169,7 +236,8 @@ def make(arguments: argparse.Namespace) -> None:
 def made_from(arguments: argparse.Namespace, provenances: Sequence[dict]) -> Made:
     """Of the tables that it is from as well. inputs: their digests."""
     own = tables.made(arguments.streaminggs, provenances)
-    sources = {name: tables.facts_of(arguments.tables, name)["made"] for name in (CASES, TUNED)}
+    names = (CASES, TUNED, SEARCHED)
+    sources = {name: tables.facts_of(arguments.tables, name)["made"] for name in names}
 
     def all_of(key: str, of_own: Sequence[str]) -> tuple[str, ...]:
         return tuple(sorted({*of_own, *(each for made in sources.values() for each in made[key])}))
@@ -179,3 +247,6 @@ def made_from(arguments: argparse.Namespace, provenances: Sequence[dict]) -> Mad
         *(own.command, all_of("commits", own.commits), all_of("releases", own.releases)),
         *(own.program, digests),
     )
+
+
+HEADLINE = Study("headline", __doc__, ("results.py headline",), add_arguments, make, READS)

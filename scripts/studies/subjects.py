@@ -6,38 +6,21 @@ one study has made the others find."""
 from __future__ import annotations
 
 import argparse
-import concurrent.futures
 import dataclasses
-import math
 import pathlib
-import statistics
-import tempfile
 from collections.abc import Sequence
-from typing import IO
 
-from tables import Column
 from runs import run_arguments
-from runs.files import read_json
-from runs.keeper import Fitting, Keeper, KeptFittings
-from runs.scenes import Scene, find_scene, shared_folder
-from runs.simulations import (
-    FIT_MEMORIES,
-    MJ,
-    Run,
-    answered,
-    asked_mb,
-    bus_mb,
-    cycles,
-    joules,
-    mean,
-    simulate_into,
-)
+from runs.keeper import Fitting, KeptFittings
+from runs.scenes import Scene, answered, find_scenes, shared_folder
+from runs.simulations import FIT_MEMORIES
 
 DEFAULT_SUBJECTS = ("lego", "desk", "truck", "platform", "yard")
 DATASET_FORMS = "a data set of ../shared by name, or the folder of one"
 SUBJECT_FORMS = (
-    f"{DATASET_FORMS}; a real scene of ../shared by name, or a .ply file with its cameras beside it"
+    f"{DATASET_FORMS}; a real scene of ../shared by name, or a file of any form that the command reads"
 )
+SCENE_IN_FOLDER = ("meta.json", "lod-meta.json")  # of SOG
 LOOKS = 20  # at the test views, while a scene is trained
 PAPER, PAPER_VQ = "paper_no_vq", "paper"
 EXACT, EXACT_VQ = "exact", "exact_vq"
@@ -79,10 +62,12 @@ def datasets_there() -> list[str]:
 
 
 def dataset_folder(text: str) -> pathlib.Path | None:
-    """That a name or a path means, if any."""
+    """That a name or a path means, if any; of a scene there are folders as well."""
     if text in datasets_there():
         return shared_folder() / "data" / text
-    return pathlib.Path(text) if pathlib.Path(text).is_dir() else None
+    path = pathlib.Path(text)
+    is_scene = any((path / name).exists() for name in SCENE_IN_FOLDER)
+    return path if path.is_dir() and not is_scene else None
 
 
 def downscale_words(downscale: float) -> tuple[str, ...]:
@@ -265,14 +250,17 @@ def begin(
     draws with. Raises ValueError."""
     calls = tunings_of(arguments, quantised_steps)
     kept = kept_fittings(arguments, arguments.side_by_side)
-    sources = find_sources(arguments.scenes or DEFAULT_SUBJECTS)
+    sources = find_sources(arguments.scenes or DEFAULT_SUBJECTS, arguments.cameras)
     check_settings(arguments.streaminggs, calls, configs)
     return calls, kept, sources
 
 
-def find_sources(texts: Sequence[str]) -> list[Source]:
-    """By name of a data set or of a scene, or by path. Raises ValueError."""
-    return [dataset_folder(text) or find_scene(text) for text in texts]
+def find_sources(texts: Sequence[str], cameras: Sequence[str] = ()) -> list[Source]:
+    """By name of a data set or of a scene, or by path. cameras: of the scenes that are paths. Raises
+    ValueError."""
+    scenes = [text for text in texts if not dataset_folder(text)]
+    found = iter(find_scenes(scenes, cameras) if scenes or cameras else ())
+    return [dataset_folder(text) or next(found) for text in texts]
 
 
 def check_settings(binary: pathlib.Path, calls: Tunings, configs: Sequence[str]) -> None:
@@ -303,161 +291,3 @@ def find_subjects(
             of = {"dataset": str(source), "downscale": arguments.downscale}
             subjects.append(Subject(source.name, scene, **of))
     return subjects
-
-
-@dataclasses.dataclass(frozen=True)
-class TargetPictures:
-    """folder: has view_N.exr, before black. cameras, size: the arguments of `simulate` that draw
-    the same views."""
-
-    folder: pathlib.Path
-    cameras: str
-    size: str
-
-    def picture(self, view: int) -> pathlib.Path:
-        return self.folder / f"view_{view}.exr"
-
-
-def check_views(binary: pathlib.Path, sources: Sequence[Source], view: str) -> None:
-    """Whether each has these test views, before anything is trained. Raises ValueError."""
-    for source in sources:
-        last = test_views(binary, source) - 1
-        seen: set[int] = set()
-        for word in view.split(",") if view != "all" else ():
-            number = int(word) if word.isdecimal() else -1
-            if not 0 <= number <= last or number in seen:
-                raise ValueError(
-                    f"--view: got '{word}', expected all, or numbers from 0 to {last}, each once, "
-                    f"as in 0,2: test views of {source.name}"
-                )
-            seen.add(number)
-
-
-def camera_count(path: pathlib.Path) -> int:
-    """Of any form of JSON that the program reads. Raises ValueError."""
-    found = read_json(path)
-    if isinstance(found, dict):
-        lists = [found[key] for key in ("cameras", "frames", "camera_path") if key in found]
-        found = lists[0] if lists else None
-    if not isinstance(found, list):
-        raise ValueError(f"{path}: got no list, expected cameras of a form that render takes")
-    return len(found)
-
-
-def test_views(binary: pathlib.Path, source: Source) -> int:
-    if isinstance(source, Scene):
-        if not source.cameras:
-            raise ValueError(f"{source.name}: brings its own cameras, expected a file of them")
-        return camera_count(pathlib.Path(source.cameras))
-    lines = answered(binary, "info", [str(source)], f"info {source}").splitlines()
-    (count,) = (line.split()[3] for line in lines if line.startswith("to test with "))
-    return int(count)
-
-
-def target_pictures(arguments: argparse.Namespace, subject: Subject) -> TargetPictures:
-    """Made once, of a subject that check_views() takes. Raises ValueError, Failure."""
-    binary = arguments.streaminggs
-
-    def make(place: pathlib.Path, _: IO) -> None:
-        if subject.dataset:
-            words = [subject.dataset, *subject.photograph_words(), "--out", str(place)]
-            answered(binary, "photographs", words, f"photographs of {subject.name}")
-            return
-        for view in range(camera_count(pathlib.Path(subject.cameras))):
-            words = [subject.scene, "--cameras", subject.cameras, "--view", str(view)]
-            words += ["--size", subject.size, "--out", str(place / f"view_{view}.exr")]
-            answered(binary, "render", words, f"render {subject.name}")
-
-    sources = [subject.dataset] if subject.dataset else [subject.scene, subject.cameras]
-    keeper = Keeper(binary, arguments.kept / "targets")
-    words = [*sources, subject.size, *subject.photograph_words()]
-    place, _ = keeper.kept(subject.name, words, make)
-    cameras = str(place / "cameras.json") if subject.dataset else subject.cameras
-    return TargetPictures(place, cameras, subject.size)
-
-
-class JudgedFrames:
-    """Views of runs, each with `target`: `psnr_db` and `ssim` of its frame beside the target
-    picture, `reference_psnr_db` and `reference_ssim` of the scene's reference picture (null:
-    equal)."""
-
-    def __init__(self, arguments: argparse.Namespace, targets: TargetPictures, side_by_side: int):
-        self.binary, self.targets, self.workers = arguments.streaminggs, targets, side_by_side
-        self.keeper = Keeper(self.binary, arguments.kept / "judged")
-
-    def run(self, name: str, scene: str, view: str, config: str, overrides: Sequence[str]) -> Run:
-        of = Scene(name, scene, self.targets.cameras)
-        return Run(of, view, self.targets.size, config, tuple(overrides))
-
-    def views(self, runs: Sequence[Run]) -> list[tuple[dict, ...]]:
-        """Of each run. Raises Failure, and ValueError for what is refused."""
-        with concurrent.futures.ThreadPoolExecutor(self.workers) as pool:
-            return list(pool.map(self.views_of, runs))
-
-    def views_of(self, run: Run) -> tuple[dict, ...]:
-        def make(_: pathlib.Path, __: IO) -> tuple[dict, ...]:
-            with tempfile.TemporaryDirectory(prefix="streaminggs-") as folder:
-                out = pathlib.Path(folder)
-                views = simulate_into(out, self.binary, run).accepted()
-                for view in views:
-                    view["target"] = self.beside_target(out / f"view_{view['view']}", view["view"])
-            return views
-
-        words = [*run.arguments(), str(self.targets.folder)]
-        return tuple(self.keeper.kept(run.label(), words, make)[1])
-
-    def beside_target(self, folder: pathlib.Path, view: int) -> dict:
-        target = self.targets.picture(view)
-        psnr_db, ssim = compared(self.binary, folder / "frame.exr", target)
-        reference_psnr_db, reference_ssim = compared(self.binary, folder / "reference.exr", target)
-        return {
-            "psnr_db": psnr_db,
-            "ssim": ssim,
-            "reference_psnr_db": reference_psnr_db,
-            "reference_ssim": reference_ssim,
-        }
-
-
-def compared(
-    binary: pathlib.Path, picture: pathlib.Path, target: pathlib.Path
-) -> tuple[float | None, float]:
-    """PSNR in dB, None where both are equal, and SSIM."""
-    words = [str(picture), str(target)]
-    lines = answered(binary, "compare", words, f"compare {' '.join(words)}").splitlines()
-    values = {name: float(text) for name, text in (line.split() for line in lines)}
-    psnr_db = values["psnr_db"]
-    return (psnr_db if math.isfinite(psnr_db) else None), values["ssim"]
-
-
-def mean_psnr(views: Sequence[dict], key: str = "psnr_db") -> float:
-    """In dB, of the views that differ from their targets; infinite where none does."""
-    found = [view["target"][key] for view in views]
-    return statistics.fmean([psnr_db for psnr_db in found if psnr_db is not None] or [math.inf])
-
-
-def quality(views: Sequence[dict], of: str = "") -> tuple[float, float]:
-    """PSNR and SSIM. of: `reference_` for the reference picture of the scene."""
-    ssim = mean(views, lambda view: view["target"][f"{of}ssim"])
-    return mean_psnr(views, f"{of}psnr_db"), ssim
-
-
-def frame_cells(views: Sequence[dict]) -> tuple[float, ...]:
-    """Of FRAME_COLUMNS."""
-    blends = sum(view["image"]["blends"] for view in views)
-    return (
-        *quality(views),
-        sum(view["image"]["misordered"] for view in views) / max(1, blends),
-        *(mean(views, asked_mb), mean(views, bus_mb)),
-        *(mean(views, cycles) / 1e6, mean(views, joules) / MJ),
-    )
-
-
-FRAME_COLUMNS = (
-    Column("PSNR dB", "beside the target, mean of the views that differ", "dB", ".2f"),
-    Column("SSIM", "beside the target, mean over the views", "", ".4f"),
-    Column("misordered blends", "share that is behind a splat which is farther away", "", ".4f"),
-    Column("asked MB", "requested by units, mean over the views", "MB", ".2f"),
-    Column("bus MB", "moved in whole bursts, mean over the views", "MB", ".2f"),
-    Column("M cycles", "of the frame, mean over the views", "10^6 cycles", ".3f"),
-    Column("mJ", "of the frame, mean over the views", "mJ", ".3f"),
-)

@@ -6,28 +6,22 @@ import subprocess
 import unittest
 from unittest import mock
 
-from in_folder import COMMAND, REPOSITORY, InFolder, file_of, nightly  # isort: skip (finds the scripts)
-from studies import binding_check
-from studies import boundary_study
-from studies import compare_machines
-from studies import compare_variants
-from studies import energy
-from studies import error_against_time
-from studies import fair_fight
+from in_folder import COMMAND, REPOSITORY, InFolder, file_of, name_of, nightly  # isort: skip (finds the scripts)
 import explore
 import tables
-from studies import half_by_stage
-from studies import paper_claims
-from studies import published_figures
-from studies import quality_table
-from studies import stability_table
 from runs import simulations
+from runs.scenes import find_scene, program_provenance
 from runs.simulations import value_at
-from runs.scenes import find_scene
-from studies import timing
-from studies import training_curves
-from studies import voxel_study
-from studies import work_precision
+from studies import published
+from studies.compare_machines import COMPARE_MACHINES
+from studies.datapath import STABILITY_TABLE
+from studies.error_against_time import ERROR_AGAINST_TIME
+from studies.fitting import BOUNDARY_STUDY, TRAINING_CURVES
+from studies.found import FAIR_FIGHT, PRESETS
+from studies.frame_costs import BINDING_CHECK, ENERGY, TIMING
+from studies.published import PAPER_CLAIMS, PUBLISHED_FIGURES
+from studies.quality import QUALITY_TABLE, VOXEL_STUDY
+from studies.variants import COMPARE_VARIANTS, HALF_BY_STAGE, WORK_PRECISION
 
 RENDERERS = pathlib.Path(COMMAND).with_name("bench_renderers") if COMMAND else ""
 SMALL_ERRORS = ("--size", "64x36", "--renderers", str(RENDERERS))
@@ -58,9 +52,9 @@ class WithTheCommand(InFolder):
     @nightly
     def test_every_script_makes_its_tables(self):
         for script, arguments, lines in (
-            (binding_check, ("--size", "64x36"), {"| truck | 0 |": 1, "of 1 views": 1}),
+            (BINDING_CHECK, ("--size", "64x36"), {"| truck | 0 |": 1, "of 1 views": 1}),
             (
-                compare_machines,
+                COMPARE_MACHINES,
                 ("--sizes", "64x36", "--object-sizes", "64x36", "--channels", "4")
                 + ("--machines", "gscore_lossless", "exact", "--view", "0"),
                 {"| truck | 64x36 | 25.6 | exact |": 2, "| 102.4 | GPU, modelled |": 2}
@@ -69,13 +63,13 @@ class WithTheCommand(InFolder):
                 | {"| frame_buffer |": 1},
             ),
             (
-                timing,
+                TIMING,
                 ("--object-sizes", "64x36", "--machines", "exact", "--repeats", "1"),
                 {"| truck | 64x36 | 25.6 | exact |": 2, "| 47.70 |": 1},
             ),
-            (compare_variants, ("--size", "64x36"), {"| truck |": 8 + 1, "| StreamingGS |": 1}),
+            (COMPARE_VARIANTS, ("--size", "64x36"), {"| truck |": 8 + 1, "| StreamingGS |": 1}),
             (
-                energy,
+                ENERGY,
                 ("--groups", "16", "64x32"),
                 {"| exact | all |": 1, "| paper_no_vq | 64x32 |": 1} | {"View 0 at 640x360 px": 2},
             ),
@@ -90,21 +84,16 @@ class WithTheCommand(InFolder):
                 ("--config", "gscore", "--axis", "cores=1,2"),
                 {"| cores | sum(cycles) | sum(dram_bytes) | sram_bytes | mm2 |": 1, "\n| 1 |": 1},
             ),
-            (paper_claims, ("--size", "64x36"), {"| area, mm2 | 5.37 |": 1, "| claim |": 1}),
-            (
-                explore,
-                ("--recipe", "smallest", "--require", "min(fps) >= 100000", "--trials", "2"),
-                {"too slow (min(fps) >= 100000); the nearest misses min(fps) >= 100000 by ": 1},
-            ),
+            (PAPER_CLAIMS, ("--size", "64x36"), {"| area, mm2 | 5.37 |": 1, "| claim |": 1}),
             (
                 explore,
                 ("--recipe", "paper_in_area", "--size", "64x36", "--trials", "2"),
                 {"2 configurations, of which ": 1},
             ),
-            (half_by_stage, ("--size", "64x36"), {"| truck | 0 |": 1, "| depth keys |": 1}),
-            (work_precision, (), {"| truck | 0 |": 21, "| 4,096 |": 2}),
+            (HALF_BY_STAGE, ("--size", "64x36"), {"| truck | 0 |": 1, "| depth keys |": 1}),
+            (WORK_PRECISION, (), {"| truck | 0 |": 21, "| 4,096 |": 2}),
             (
-                error_against_time,
+                ERROR_AGAINST_TIME,
                 ("--diagrams", "image", "tuning", "renderers", *SMALL_ERRORS),
                 {"| truck | 0 | exact |": 29, "| truck | 0 | paper |": 20 + 2, "| tuning |": 2 + 3}
                 | {"| truck | 0 | tiles |": 5}
@@ -112,26 +101,34 @@ class WithTheCommand(InFolder):
                 | {"| truck | 0 | paper order in half |": 2},
             ),
             (
-                boundary_study,
+                BOUNDARY_STUDY,
                 (*SMALL_TUNING, "--betas", "0", "0.5", "--voxels", "1", "0.5"),
                 {"| truck |": 4 * 2 + 4, "| 0.5 | 4 |": 2 + 2},
             ),
             (
-                quality_table,
+                QUALITY_TABLE,
                 (*SMALL_TUNING, "--quantised-steps", "3", "--prices", "0.1"),
                 {"| truck | own pictures |": 2, "| truck | paper |": 4, "| truck | exact |": 5},
             ),
             (
-                voxel_study,
+                VOXEL_STUDY,
                 (*SMALL_TUNING, "--voxels", "1", "2"),
                 {"| as given |": 2, "| tuned |": 2},
             ),
         ):
-            with self.subTest(script.__name__, arguments=arguments):
+            with self.subTest(name_of(script), arguments=arguments):
                 made = self.made(script, *arguments)
                 self.assertRegex(made, f"Made by `scripts/{file_of(script)} ")
                 for text, count in lines.items():
                     self.assertEqual(made.count(text), count, f"{text} in\n{made}")
+
+    def test_where_no_machine_holds(self):
+        """The status says so to a script."""
+        words = ("--recipe", "smallest", "--require", "min(fps) >= 100000", "--trials", "2")
+        words += ("--streaminggs", COMMAND, "--out", str(self.folder))
+        status, line, _ = self.ended(explore, str(self.scene), *words)
+        self.assertEqual(status, 3)
+        self.assertRegex(line, r"too slow \(min\(fps\) >= 100000\); the nearest misses min\(fps\)")
 
     @nightly
     def test_both_orders_in_one_area(self):
@@ -146,8 +143,8 @@ class WithTheCommand(InFolder):
             )
             self.assertEqual(status, 0, line)
             found.append(f"{order}={self.folder / order}")
-        made = self.made(fair_fight, "--sizes", "64x36", "--found", *found)
-        names = [f"preset {name}" for name in fair_fight.PRESETS] + ["exact, found", "paper, found"]
+        made = self.made(FAIR_FIGHT, "--sizes", "64x36", "--found", *found)
+        names = [f"preset {name}" for name in PRESETS] + ["exact, found", "paper, found"]
         for name in names:
             self.assertEqual(made.count(f"| 64x36 | truck | {name} |"), 2, made)
             self.assertEqual(made.count(f"| 64x36 | {name} |"), 1, made)
@@ -159,7 +156,7 @@ class WithTheCommand(InFolder):
     def test_figures_are_drawn_from_the_tables(self):
         small = ("--sizes", "64x36", "--object-sizes", "64x36", "--channels", "4", "--view", "0")
         machines = ("--machines", "gscore_fp32_keys", "exact_fp16")
-        self.made(compare_machines, *small, *machines)
+        self.made(COMPARE_MACHINES, *small, *machines)
         drawn = sorted(self.folder.glob("*.svg"))
         names = ["compare_machines_rates", "compare_machines_ratios", "compare_machines_traffic"]
         self.assertEqual([path.stem for path in drawn], names)
@@ -178,9 +175,9 @@ class WithTheCommand(InFolder):
 
     def test_an_interruption_loses_no_simulation(self):
         small = ("--sizes", "64x36", "--object-sizes", "64x36", "--channels", "4", "--view", "0")
-        self.made(compare_machines, *small, "--machines", "gscore", "exact")
+        self.made(COMPARE_MACHINES, *small, "--machines", "gscore", "exact")
         kept = (self.folder / "kept" / "compare_machines.jsonl").read_text()
-        self.made(compare_machines, *small, "--machines", "gscore", "exact")
+        self.made(COMPARE_MACHINES, *small, "--machines", "gscore", "exact")
         self.assertEqual((self.folder / "kept" / "compare_machines.jsonl").read_text(), kept)
 
     def test_published_figures_stand_beside_ours(self):
@@ -192,8 +189,8 @@ class WithTheCommand(InFolder):
             "LEGO_SIZE": "64x36",
         }
         small["GPU_CASES"] = (("builtin:object?n=300", "64x36", 4.9),)
-        with mock.patch.multiple(published_figures, **small):
-            made = self.made(published_figures)
+        with mock.patch.multiple(published, **small):
+            made = self.made(PUBLISHED_FIGURES)
         for text, count in {
             "| features in | Gaussians |": 2,
             "| lists out | pairs |": 2,
@@ -209,20 +206,20 @@ class WithTheCommand(InFolder):
         training = ("--train-steps", "20", "--gaussians", "200")
         for script, arguments, lines in (
             (
-                training_curves,
+                TRAINING_CURVES,
                 ("--seeds", "1", "2", "--same-bits", "5"),
                 {"| photographs | 1 |": 20 + 1, "| photographs | 2 |": 20 + 1}
                 | {"| after 5 steps |": 1},
             ),
             (
-                quality_table,
+                QUALITY_TABLE,
                 ("--steps", "4", "--quantised-steps", "3", "--prices", "0.1", "--view", "0"),
                 {"| photographs | photographs |": 3, "| photographs | exact |": 8 + 1}
                 | {"| photographs | reference |": 1, "| as long as ": 2},
             ),
-            (voxel_study, ("--steps", "4", "--voxels", "1"), {"| photographs | 1 |": 2}),
+            (VOXEL_STUDY, ("--steps", "4", "--voxels", "1"), {"| photographs | 1 |": 2}),
         ):
-            with self.subTest(script.__name__):
+            with self.subTest(name_of(script)):
                 status, line, made = self.ended(
                     script,
                     photographs,
@@ -239,15 +236,15 @@ class WithTheCommand(InFolder):
 
     def test_whatever_makes_a_table_names_its_program(self):
         """Release and commit, of the command or of a program beside it."""
-        self.made(binding_check, "--size", "64x36")
+        self.made(BINDING_CHECK, "--size", "64x36")
         stability = pathlib.Path(COMMAND).with_name("stability")
         words = ("--stability", str(stability), "--samples", "1", "--out", str(self.folder))
         if stability.exists():
-            self.assertEqual(self.ended(stability_table, *words)[0], 0)
+            self.assertEqual(self.ended(STABILITY_TABLE, *words)[0], 0)
         programs = {"binding_check": pathlib.Path(COMMAND)}
         programs |= {"stability": stability} if stability.exists() else {}
         for name, program in programs.items():
-            told = simulations.program_provenance(program)
+            told = program_provenance(program)
             by = tables.facts_of(self.folder, name)["made"]
             with self.subTest(name):
                 self.assertTrue(all(told.values()))
@@ -298,56 +295,56 @@ class WithTheCommand(InFolder):
                 "group_width_px: got 0 with sram.shared_bytes 0",
             ),
             (explore, ("--axis", "group=1x2x3"), "group: '1x2x3', expected"),
-            (energy, ("--groups", "wide"), "group: 'wide', expected"),
+            (ENERGY, ("--groups", "wide"), "group: 'wide', expected"),
             (explore, ("--axis", "hfu=2"), "--set hfu=2: "),
-            (binding_check, ("--view", "7"), "--view: got '7'"),
-            (energy, ("--size", "3"), "--size: got '3'"),
-            (compare_machines, ("--object-sizes", "3x"), "--object-sizes: got 3x, expected WIDTH"),
-            (compare_machines, ("--sizes", "64x36"), "--sizes: got only this, expected --object-"),
-            (compare_machines, ("--machines", "nope"), "--config nope: no file"),
-            (compare_machines, ("--channels", "3"), "dram.channels: got 3, expected a power"),
-            (compare_variants, ("--view", "x"), "--view: 'x', expected numbers"),
-            (timing, ("--view", "7"), "--view: got '7'"),
-            (timing, ("--machines", "nope"), "--config nope: no file"),
-            (work_precision, ("--view", "7"), "--view: got '7'"),
-            (work_precision, ("--set", "nope=1"), "streaminggs: .*nope"),
-            (error_against_time, ("--view", "7"), "--view: got '7'"),
+            (BINDING_CHECK, ("--view", "7"), "--view: got '7'"),
+            (ENERGY, ("--size", "3"), "--size: got '3'"),
+            (COMPARE_MACHINES, ("--object-sizes", "3x"), "--object-sizes: got 3x, expected WIDTH"),
+            (COMPARE_MACHINES, ("--sizes", "64x36"), "--sizes: got only this, expected --object-"),
+            (COMPARE_MACHINES, ("--machines", "nope"), "--config nope: no file"),
+            (COMPARE_MACHINES, ("--channels", "3"), "dram.channels: got 3, expected a power"),
+            (COMPARE_VARIANTS, ("--view", "x"), "--view: 'x', expected numbers"),
+            (TIMING, ("--view", "7"), "--view: got '7'"),
+            (TIMING, ("--machines", "nope"), "--config nope: no file"),
+            (WORK_PRECISION, ("--view", "7"), "--view: got '7'"),
+            (WORK_PRECISION, ("--set", "nope=1"), "streaminggs: .*nope"),
+            (ERROR_AGAINST_TIME, ("--view", "7"), "--view: got '7'"),
             (
-                error_against_time,
+                ERROR_AGAINST_TIME,
                 ("--diagrams", "tuning", "--datasets", "nope"),
                 "nope: no data set; expected",
             ),
             (
-                error_against_time,
+                ERROR_AGAINST_TIME,
                 ("--diagrams", "tuning", "--datasets", "--steps", "0"),
                 "--steps: 0 and no --datasets: nothing to fit",
             ),
             (
-                error_against_time,
+                ERROR_AGAINST_TIME,
                 ("--diagrams", "renderers", "--renderers", "nope"),
                 "nope: not there; scripts/setup.sh builds it",
             ),
             (
-                error_against_time,
+                ERROR_AGAINST_TIME,
                 ("--diagrams", "renderers", "--renderers", str(RENDERERS), "--threads", "0"),
                 "--threads: got '0', expected a number from 1 to 999",
             ),
             (
-                error_against_time,
+                ERROR_AGAINST_TIME,
                 ("--diagrams", "renderers", "--renderers", str(RENDERERS), "--size", "3"),
                 "--size: got 3, expected WIDTHxHEIGHT in px",
             ),
-            (boundary_study, ("--size", "3"), "truck boundary .*--size: got '3'"),
-            (boundary_study, ("--betas", "-1"), "truck boundary .*--beta"),
-            (quality_table, ("--view", "7"), "--view: got '7'"),
-            (voxel_study, ("--view", "7"), "--view: got '7'"),
+            (BOUNDARY_STUDY, ("--size", "3"), "truck boundary .*--size: got '3'"),
+            (BOUNDARY_STUDY, ("--betas", "-1"), "truck boundary .*--beta"),
+            (QUALITY_TABLE, ("--view", "7"), "--view: got '7'"),
+            (VOXEL_STUDY, ("--view", "7"), "--view: got '7'"),
             *(
                 (script, ("--paper-set", "nope=1"), "streaminggs: --set nope=1: nope: unknown key")
-                for script in (boundary_study, quality_table, voxel_study)
+                for script in (BOUNDARY_STUDY, QUALITY_TABLE, VOXEL_STUDY)
             ),
-            (training_curves, (), "truck.ply: no data set; expected a folder"),
+            (TRAINING_CURVES, (), "truck.ply: no data set; expected a folder"),
         ):
-            with self.subTest(script.__name__, arguments=arguments):
+            with self.subTest(name_of(script), arguments=arguments):
                 status, said, made = self.ended(
                     script,
                     str(self.scene),

@@ -13,11 +13,20 @@ from unittest import mock
 from in_folder import InFolder  # isort: skip (finds the scripts)
 import results
 import tables
-from tables import Column, Made
 from runs.files import content_digest
-from studies import compare_machines, headline, timing
 from runs.scenes import Scene
-from studies.cases import busiest_of_kernels, busiest_seconds, Case, Entry, GPU, Measured, sizes_of
+from studies import compare_machines, frame_costs, headline
+from studies.cases import (
+    GPU,
+    Case,
+    Entry,
+    Measured,
+    busiest_of_kernels,
+    busiest_seconds,
+    size_groups,
+    sizes_of,
+)
+from tables import Column, Made
 
 NAMES = [column.name for column in compare_machines.RATIO_COLUMNS]
 
@@ -202,7 +211,7 @@ class Machines(unittest.TestCase):
             for scene in scenes
             for size in sizes_of(scene.name, arguments)
         ]
-        groups = compare_machines.size_groups(cases, arguments)
+        groups = size_groups(cases, arguments)
         self.assertEqual(list(groups), ["4x2", "6x6, 8x4", "all"])
         times = (3, 9, 12, 9)
         entries = [
@@ -231,7 +240,7 @@ class Machines(unittest.TestCase):
             self.assertEqual(over_gscore[sizes][0], cases_of)
             self.assertAlmostEqual(over_gscore[sizes][1], times)
         alone = argparse.Namespace(sizes=["4x2"], object_sizes=["6x6"])
-        self.assertEqual(list(compare_machines.size_groups([cases[0]], alone)), ["all"])
+        self.assertEqual(list(size_groups([cases[0]], alone)), ["all"])
 
     def test_how_long_the_busiest_works(self):
         view = {"frame": {"time_s": 4e-3}, "binding": {"utilisation": 0.75}}
@@ -244,10 +253,10 @@ class Machines(unittest.TestCase):
 
     def test_the_quickest_and_the_slowest_of_a_machine(self):
         case = Case(Scene("s", "a"), "4x2")
-        points = [timing.Timed(case, "exact", 25.6, seconds, 0.5) for seconds in (2, 1, 3)]
-        rows = timing.point_rows(points)
-        self.assertEqual([row[-1] for row in rows], [timing.PUBLISHED_SECONDS, 1, 3])
-        self.assertEqual(len(timing.point_rows(points[:1])), 2)
+        points = [frame_costs.Timed(case, "exact", 25.6, seconds, 0.5) for seconds in (2, 1, 3)]
+        rows = frame_costs.point_rows(points)
+        self.assertEqual([row[-1] for row in rows], [frame_costs.PUBLISHED_SECONDS, 1, 3])
+        self.assertEqual(len(frame_costs.point_rows(points[:1])), 2)
 
     def test_every_region_is_of_one_kind(self):
         m = measured(1, region=5)
@@ -280,10 +289,24 @@ class Headline(InFolder):
             ],
         )
 
+        head = ("size px", "machine", "mm2", "M cycles", "mJ", "PSNR dB, least", "PSNR dB, most")
+        self.save(
+            headline.SEARCHED,
+            head,
+            [
+                ("1x1", "preset exact", 9, 9, 9, 9, 9),
+                ("1x1", "exact, found", 6, 2, 3, "inf", "inf"),
+                ("2x2", "exact, found", 6, 2, 3, "inf", "inf"),
+                ("1x1", "paper, found", 3, 1, 3, 20, 40),
+                ("2x2", "paper, found", 3, 4, 12, 15, 30),
+            ],
+        )
+
     def write_cases(self, *cases):
         head = ("scene", "GB/s", "machine", "than", "times as fast", "times less energy")
-        rows = [(scene, "25.6", *self.PAIR, *ratios) for scene, *ratios in cases]
-        rows.append(("truck", "51.2", *self.PAIR, 100, 100))
+        rows = [(scene, "25.6", *self.PAIR, *ratios, 50) for scene, *ratios in cases]
+        rows += [(scene, "51.2", *self.PAIR, 100, 100, by) for scene, by in (("a", 2), ("b", 0.5))]
+        head += ("both overlapped",)
         self.save(headline.CASES, head, rows)
 
     def save(self, name, head, rows):
@@ -291,9 +314,10 @@ class Headline(InFolder):
         tables.save(self.folder, name, by, [Column(each, "") for each in head], rows)
 
     def made(self) -> list[dict[str, str]]:
-        def area(_, preset: str, technology: pathlib.Path) -> tuple[float, dict]:
+        def area(_, preset: str, channels: int, technology: pathlib.Path) -> tuple[float, dict]:
             counted = json.loads(technology.read_text())["memory_interface"]["counted"]
-            return {"exact_fast": 3, "exact_vq": 3}.get(preset, 2) + (4 if counted else 0), {}
+            own = {"exact_fast": 3, "exact_vq": 3}.get(preset, 2)
+            return own + (channels if counted else 0), {}
 
         arguments = argparse.Namespace(
             tables=self.folder, out=self.folder, streaminggs=self.stand_in("")
@@ -306,7 +330,7 @@ class Headline(InFolder):
 
     def test_each_trained_scene_counts_once(self):
         """Truck 4 and 3, yard 1 and 12; a built-in scene and the other memory do not count."""
-        first, _ = self.made()
+        first, *_ = self.made()
         self.assertEqual(first["machine / baseline"], "exact_fast / gscore_lossless")
         self.assertAlmostEqual(float(first["speed-up"]), 2)
         self.assertAlmostEqual(float(first["energy, baseline over machine"]), 6)
@@ -316,17 +340,40 @@ class Headline(InFolder):
         self.assertEqual([row["scene"] for row in scenes], ["truck", "yard", "lego", "desk"])
 
     def test_of_tuned_scenes_only_what_was_tuned_to_codebooks(self):
-        *_, last = self.made()
+        *_, last, _ = self.made()
         self.assertEqual(last["machine / baseline"], "exact_vq / paper")
         self.assertAlmostEqual(float(last["speed-up"]), 4)
         self.assertAlmostEqual(float(last["energy, baseline over machine"]), 3)
         self.assertEqual(last["picture"], "40.0 .. 40.0 dB, baseline 30.0 .. 30.0 dB")
 
+    def test_overlapped_frames_with_twice_the_memory(self):
+        """Of which no energy is measured; 8 channels in the area."""
+        row = self.made()[1]
+        self.assertEqual(row["machine / baseline"], "exact_fast / gscore_lossless")
+        self.assertEqual(row["frames"], "overlapped, 51.2 GB/s")
+        self.assertAlmostEqual(float(row["speed-up"]), 1)
+        self.assertEqual(row["energy, baseline over machine"], "")
+        self.assertAlmostEqual(float(row["area ratio with PHY and controller"]), 11 / 10)
+
+    def test_what_was_searched_for_both_orders(self):
+        """In cycles 1 / 2 and 4 / 2, in joules 3 / 3 and 12 / 3, in area 6 / 3."""
+        *_, row = self.made()
+        self.assertEqual(row["machine / baseline"], headline.SEARCHED_PAIR)
+        self.assertAlmostEqual(float(row["speed-up"]), 1)
+        self.assertAlmostEqual(float(row["energy, baseline over machine"]), 2)
+        self.assertAlmostEqual(float(row["area ratio"]), 2)
+        self.assertEqual(row["area ratio with PHY and controller"], "")
+        self.assertEqual(row["picture"], "the reference picture, baseline 15.0 .. 40.0 dB")
+        self.save(headline.SEARCHED, ("size px", "machine"), [("1x1", "preset exact")])
+        with self.assertRaisesRegex(ValueError, "no machine of each size that was found"):
+            self.made()
+
     def test_it_names_the_tables_that_it_is_from(self):
         self.made()
         made = tables.facts_of(self.folder, "headline")["made"]
-        self.assertEqual(made["commits"], [f"of {headline.CASES}", f"of {headline.TUNED}"])
-        self.assertEqual(list(made["inputs"]), [f"{headline.CASES}.csv", f"{headline.TUNED}.csv"])
+        names = (headline.CASES, headline.TUNED, headline.SEARCHED)
+        self.assertEqual(made["commits"], sorted(f"of {name}" for name in names))
+        self.assertEqual(list(made["inputs"]), [f"{name}.csv" for name in names])
 
     def test_without_trained_scenes_there_is_none(self):
         self.write_cases(("builtin:object", 1, 1))

@@ -8,20 +8,21 @@ import unittest
 
 from in_folder import nightly  # isort: skip (finds the scripts)
 import tables
-from exploring import measures, space
-from exploring.axes import Axis, of_scene
-from studies import binding_check, energy, stability_table, switching, synthesis, work_precision
-from runs import front, simulations
+from exploring import measures
+from exploring.axes import Axis, Space, of_scene, parse_axes, parse_axis, read_points
+from runs import simulations
 from runs.scenes import REPOSITORY, find_scene, find_scenes
+from runs.simulations import pareto_front
+from studies import cases, datapath, frame_costs, gates, variants
 
 
 class Pareto(unittest.TestCase):
     def test_what_another_beats_everywhere_is_not_on_the_front(self):
         points = [(1, 9), (5, 5), (9, 1), (6, 6), (5, 6)]
-        self.assertEqual(front.pareto_front(points), [True, True, True, False, False])
+        self.assertEqual(pareto_front(points), [True, True, True, False, False])
 
     def test_equal_points_stay_together(self):
-        self.assertEqual(front.pareto_front([(2, 2), (2, 2), (3, 2)]), [True, True, False])
+        self.assertEqual(pareto_front([(2, 2), (2, 2), (3, 2)]), [True, True, False])
 
 
 class Measures(unittest.TestCase):
@@ -186,29 +187,29 @@ class Measures(unittest.TestCase):
 
 class Spaces(unittest.TestCase):
     def test_axis(self):
-        (axis,) = space.parse_axis("hfus=2,4")
+        (axis,) = parse_axis("hfus=2,4")
         self.assertEqual(axis.settings, (("hfus=2",), ("hfus=4",)))
         for bad in ("hfus", "=2", "hfus=", "hfus=2,"):
             with self.assertRaises(ValueError):
-                space.parse_axis(bad)
+                parse_axis(bad)
 
     def test_points_of_a_file(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "points"
             path.write_text("hfus=2 group=64 # small\n\n# none\nhfus=4\n")
-            (axis,) = space.read_points(path)
+            (axis,) = read_points(path)
             group = ("group_width_px=64", "group_height_px=64")
             self.assertEqual(axis.settings, (("hfus=2", *group), ("hfus=4",)))
             path.write_text("hfus=2\nhfus 4\n")
             with self.assertRaisesRegex(ValueError, ":2: 'hfus'"):
-                space.read_points(path)
+                read_points(path)
             path.write_text("# none\n")
             with self.assertRaisesRegex(ValueError, "points: no configurations"):
-                space.read_points(path)
+                read_points(path)
 
     def test_of_axes(self):
-        axes = space.parse_axes(["hfus=2,4", "group=32,64x16,96"])
-        both = space.Space(axes)
+        axes = parse_axes(["hfus=2,4", "group=32,64x16,96"])
+        both = Space(axes)
         self.assertEqual((both.size(), both.keys()), (6, ("hfus", "group")))
         self.assertEqual(list(both.all())[:4], [(0, 0), (0, 1), (0, 2), (1, 0)])
         self.assertEqual(set(both.neighbours((0, 1))), {(1, 1), (0, 0), (0, 2)})
@@ -217,24 +218,24 @@ class Spaces(unittest.TestCase):
 
     def test_axes_of_a_machine_stand_behind_those_that_are_named(self):
         given = (Axis("hfus", (("hfus=1",),)), Axis("clusters", (("clusters=1",), ("clusters=2",))))
-        axes = space.parse_axes(["hfus=2,4"], given)
+        axes = parse_axes(["hfus=2,4"], given)
         self.assertEqual([axis.name for axis in axes], ["clusters", "hfus"])
 
     def test_what_is_chosen_for_each_scene(self):
         scopes = ("a", "b")
-        axes = space.parse_axes(["hfus=2,4", "storage.chunk@each=8,16"], (), scopes)
+        axes = parse_axes(["hfus=2,4", "storage.chunk@each=8,16"], (), scopes)
         self.assertEqual(
             [(a.name, a.scope) for a in axes[1:]], [(f"storage.chunk@{s}", s) for s in scopes]
         )
-        both = space.Space(axes)
+        both = Space(axes)
         at = (1, 0, 1)
         self.assertEqual(of_scene(both.assignments(at), "b"), ("hfus=4", "storage.chunk=16"))
         self.assertEqual(both.machine(at), ("hfus=4", "storage.chunk=8"))
         self.assertEqual(both.keys(), ("hfus", "storage.chunk@a", "storage.chunk@b"))
         with self.assertRaisesRegex(ValueError, "storage.chunk@a: there are two"):
-            space.parse_axes(["storage.chunk@each=8,16", "storage.chunk@a=4,8"], (), scopes)
+            parse_axes(["storage.chunk@each=8,16", "storage.chunk@a=4,8"], (), scopes)
         with self.assertRaisesRegex(ValueError, "storage.chunk@a: there are two"):
-            space.parse_axes(["storage.chunk=8,16", "storage.chunk@a=4,8"], (), scopes)
+            parse_axes(["storage.chunk=8,16", "storage.chunk@a=4,8"], (), scopes)
 
 
 class Configurations(unittest.TestCase):
@@ -257,11 +258,11 @@ class Configurations(unittest.TestCase):
             "storage": {"chunk_gaussians": 16},
             "merge": merge,
         }
-        points = work_precision.combinations(preset, cross=False)
+        points = variants.combinations(preset, cross=False)
         # 6 sizes x 2 policies, and 3 groups and 5 chunks that are not the preset's.
         self.assertEqual(len(points), 12 + 3 + 5)
         self.assertEqual(len(set(points)), len(points))
-        self.assertEqual(len(work_precision.combinations(preset, cross=True)), 4 * 6 * 6 * 2)
+        self.assertEqual(len(variants.combinations(preset, cross=True)), 4 * 6 * 6 * 2)
 
     def test_unknown_scene_is_refused_with_what_there_is(self):
         with self.assertRaisesRegex(ValueError, "nowhere: no scene; expected .*builtin:object"):
@@ -272,6 +273,36 @@ class Configurations(unittest.TestCase):
         for texts in ([text, text], [text, "builtin:outdoor", text]):
             with self.assertRaisesRegex(ValueError, "n=1: got it twice, expected each scene once"):
                 find_scenes(texts)
+
+    def test_scenes_by_path(self):
+        """Of any form, with cameras of any form; what is in them the program reads."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            for path in ("a.spz", "a.json", "b.ply", "photographs/x", "c/meta.json", "d/b.ply"):
+                (folder / path).parent.mkdir(exist_ok=True)
+                (folder / path).touch()
+            a, b, c, other_b = (str(folder / path) for path in ("a.spz", "b.ply", "c", "d/b.ply"))
+            photographs, file = str(folder / "photographs"), str(folder / "a.json")
+            for texts, cameras, expected in (
+                ([a], [], [("a", file)]),
+                ([a, b, c], [photographs], [(of, photographs) for of in "abc"]),
+                ([a, c], [photographs, file], [("a", photographs), ("c", file)]),
+                (["builtin:object", b], [file], [("builtin:object", ""), ("b", file)]),
+            ):
+                with self.subTest(texts=texts, cameras=cameras):
+                    found = find_scenes(texts, cameras)
+                    self.assertEqual([scene.spec for scene in found], texts)
+                    self.assertEqual([(scene.name, scene.cameras) for scene in found], expected)
+            for texts, cameras, said in (
+                ([b], [], "b.ply: expected its cameras in .*/b.json, or by --cameras"),
+                ([c], [], "c: expected its cameras in .*/c.json, or by --cameras"),
+                ([b], ["nowhere"], "--cameras: nowhere: not there"),
+                (["builtin:object"], [file], "--cameras: got 1 for 0 scenes that are paths"),
+                ([a, b, c], [file] * 2, "--cameras: got 2 for 3 scenes that are paths"),
+                ([b, other_b], [file], "d/b.ply: named b as .*b.ply is, expected another name"),
+            ):
+                with self.subTest(said), self.assertRaisesRegex(ValueError, said):
+                    find_scenes(texts, cameras)
 
 
 class Stability(unittest.TestCase):
@@ -294,23 +325,23 @@ class Stability(unittest.TestCase):
     }
 
     def test_a_row_tells_of_what_comes_before_it_breaks(self):
-        row = stability_table.row_of(self.STUDY)
+        row = datapath.stability_row(self.STUDY)
         self.assertEqual(row[3:9], ("size 1 .. 10^6", 3e-3, "of x", None, "u", "10^6"))
         whole = self.STUDY | {"breaks_at": None, "places": self.STUDY["places"][:1]}
-        row = stability_table.row_of(whole)
+        row = datapath.stability_row(whole)
         self.assertEqual(row[3:9], ("size 1 .. 1", 1e-7, "of x", 2e-7, "u", "nowhere"))
 
     def test_never_whole(self):
         broken = self.STUDY | {"breaks_at": 1000, "places": self.STUDY["places"][1:]}
-        self.assertEqual(stability_table.row_of(broken)[4], 3e-3)
+        self.assertEqual(datapath.stability_row(broken)[4], 3e-3)
 
     def test_every_place_is_in_the_csv(self):
-        rows = stability_table.place_rows(self.STUDY)
+        rows = datapath.place_rows(self.STUDY)
         self.assertEqual(rows[1][5:], (1000, 3e-3, None, 0.1, None))
         self.assertEqual(len(rows), 3)
 
 
-HAS_GATES = shutil.which("yosys") and synthesis.OSU018.exists()
+HAS_GATES = shutil.which("yosys") and datapath.OSU018.exists()
 TABLES = REPOSITORY / "traces" / "results"
 
 
@@ -322,24 +353,24 @@ class Synthesis(unittest.TestCase):
   }
 }
 """
-    STAGE = synthesis.Module("32 register bits", "stage", "register_bit", 32, ("WIDTH 32",))
+    STAGE = datapath.Module("32 register bits", "stage", "register_bit", 32, ("WIDTH 32",))
 
     def test_cells_of_a_library(self):
-        found = {name: self.CELLS[a:b] for name, a, b in synthesis.cells_of(self.CELLS)}
+        found = {name: self.CELLS[a:b] for name, a, b in gates.cells_of(self.CELLS)}
         self.assertEqual(list(found), ["NAND2X1", "clkinv_1"])
-        self.assertEqual(synthesis.area_of(found["NAND2X1"], "NAND2X1"), 2)
+        self.assertEqual(gates.area_of(found["NAND2X1"], "NAND2X1"), 2)
         self.assertNotIn("clkinv_1", found["NAND2X1"])
 
     def test_gates_switch(self):
         """x = not (a b), y = x or a but not both, held in a register: nets' values and changes by hand."""
-        nand = switching.cell_of(
+        nand = gates.cell_of(
             "pin(A) { capacitance : 1; } pin(B) { capacitance : 1; } "
             'pin(Y) { function : "(A B)\'"; internal_power() { values ("2, 2"); } }'
         )
-        either = switching.cell_of(
+        either = gates.cell_of(
             'pin(A) { capacitance : 1; } pin(B) { capacitance : 1; } pin(Y) { function : "A^B"; }'
         )
-        register = switching.register_of(
+        register = gates.register_of(
             "ff (IQ) { } pin(D) { direction : input; capacitance : 4; } pin(Q) { direction : output; }"
         )
 
@@ -351,7 +382,7 @@ class Synthesis(unittest.TestCase):
             "nand": gate("NAND", A=1, B=2, Y=4),
             "held": gate("$_DFF_P_", D=5, Q=6, C=3),
         }
-        netlist = switching.netlist_of({"cells": cells}, {"NAND": nand, "XOR": either}, register)
+        netlist = gates.netlist_of({"cells": cells}, {"NAND": nand, "XOR": either}, register)
         values = netlist.values({1: 0b0110, 2: 0b1010, 3: 0}, 4)
         self.assertEqual((values[4], values[5], values[6]), (0b1101, 0b1011, 0b0110))
         settled = netlist.changes(values, 4, False)
@@ -369,15 +400,15 @@ class Synthesis(unittest.TestCase):
             path = pathlib.Path(name) / "of.lib"
             path.write_text(self.CELLS.replace("NAND2X1", "NOR2X1"))
             with self.assertRaisesRegex(ValueError, "of.lib: no NAND2, expected a library of cel"):
-                synthesis.read_library(path, pathlib.Path(name))
+                gates.read_library(path, pathlib.Path(name))
 
     def test_at_32_nm_the_least_depth_is_typical_and_the_most_slow(self):
         mapped = [
-            synthesis.Mapped("a", self.STAGE, "small", 100, 32, 90, 1, (0, 0), (100, 2 * 100)),
-            synthesis.Mapped("a", self.STAGE, "fast", 200, 32, 20, 1, (0, 0), (200, 2 * 200)),
-            synthesis.Mapped("b", self.STAGE, "fast", 400, 32, 45, 1, (0, 0), (400, 2 * 400)),
+            datapath.Mapped("a", self.STAGE, "small", 100, 32, 90, 1, (0, 0), (100, 2 * 100)),
+            datapath.Mapped("a", self.STAGE, "fast", 200, 32, 20, 1, (0, 0), (200, 2 * 200)),
+            datapath.Mapped("b", self.STAGE, "fast", 400, 32, 45, 1, (0, 0), (400, 2 * 400)),
         ]
-        name, bits, least, most, *depth_and_area = synthesis.node_row(self.STAGE, mapped)
+        name, bits, least, most, *depth_and_area = datapath.node_row(self.STAGE, mapped)
         self.assertEqual((name, bits, least, most), ("32 register bits", 32, 100, 400))
         nand2 = 0.798 * 1024 / 2025
         expected = (20, 45, 25 * 0.01152, 50 * 0.016, 100 * nand2, 200 * nand2 / 0.75)
@@ -394,11 +425,11 @@ class Synthesis(unittest.TestCase):
         }
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
-            library = synthesis.read_library(synthesis.OSU018, folder)
-            for module in synthesis.MODULES:
-                gates = synthesis.in_gates(module, folder)
-                for mapping in synthesis.MAPPINGS:
-                    row = synthesis.mapped_to(library, module, gates, mapping, folder).row()
+            library = gates.read_library(datapath.OSU018, folder)
+            for module in datapath.MODULES:
+                logic = datapath.in_gates(module, folder)
+                for mapping in datapath.MAPPINGS:
+                    row = datapath.mapped_to(library, module, logic, mapping, folder).row()
                     expected = list(wanted[module.name, mapping].values())
                     self.assertEqual([str(cell) for cell in row], expected)
 
@@ -406,14 +437,14 @@ class Synthesis(unittest.TestCase):
     def test_registers_and_an_adder_in_cells(self):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
-            library = synthesis.read_library(synthesis.OSU018, folder)
+            library = gates.read_library(datapath.OSU018, folder)
             # A flip-flop of this library has four times the area of its NAND2.
             self.assertEqual(library.register_um2, 4 * library.nand2_um2)
             # 0.18 um: 65 to 90 ps by the rule of the study.
             self.assertGreater(library.fo4_ps, 60)
             self.assertLess(library.fo4_ps, 100)
-            gates = synthesis.in_gates(self.STAGE, folder)
-            registers = synthesis.mapped_to(library, self.STAGE, gates, "small", folder)
+            logic = datapath.in_gates(self.STAGE, folder)
+            registers = datapath.mapped_to(library, self.STAGE, logic, "small", folder)
             self.assertEqual(
                 (registers.register_bits, registers.nand2, registers.fo4), (32, 128, 0)
             )
@@ -421,11 +452,11 @@ class Synthesis(unittest.TestCase):
             expected = 16 * library.register.pj
             self.assertAlmostEqual(registers.pj[0], registers.pj[1])
             self.assertGreater(registers.pj[0], 0.9 * expected)
-            adder = synthesis.Module("adder", "comparator", "comparator", 1, ("HAS 4",))
-            gates = synthesis.in_gates(adder, folder)
+            adder = datapath.Module("adder", "comparator", "comparator", 1, ("HAS 4",))
+            logic = datapath.in_gates(adder, folder)
             small, fast = (
-                synthesis.mapped_to(library, adder, gates, mapping, folder)
-                for mapping in synthesis.MAPPINGS
+                datapath.mapped_to(library, adder, logic, mapping, folder)
+                for mapping in datapath.MAPPINGS
             )
             self.assertGreater(small.pj[1], small.pj[0])
             self.assertEqual(small.register_bits, 0)
@@ -483,10 +514,10 @@ class Reports(unittest.TestCase):
             "area_mm2": {"vsu": 1, "merge": 1, "sram": 1, "total": 3, "bands": {}, "by_owner": {}},
             "energy": {**middles, "dram_by_region_j": {"spill": 1.0}, "bands": {}},
         }
-        rows = energy.components(view)
+        rows = cases.components(view)
         self.assertEqual(rows["SRAM: pixels"], ("pixel_state_j",))
         self.assertEqual(rows["SRAM: all else"], ("input_j",))
-        summed = [energy.joules(view, of) for name, of in rows.items() if name != "all"]
+        summed = [cases.joules_of(view, of) for name, of in rows.items() if name != "all"]
         self.assertEqual(sum(summed), 2.0**7 - 1)
 
     def test_the_ordering_table_grows_with_the_group(self):
@@ -494,9 +525,9 @@ class Reports(unittest.TestCase):
         for shape, expected in (("16", 4096), ("64", 4096), ("128", 16384), ("160x120", 19200)):
             with self.subTest(shape):
                 keys = simulations.group_assignments(shape)
-                made = energy.table_bytes(config, keys)
+                made = frame_costs.table_bytes(config, keys)
                 self.assertEqual(made, (f"vsu.table_bytes={expected}",))
-                self.assertEqual(energy.table_bytes({"vsu": {}}, keys), ())
+                self.assertEqual(frame_costs.table_bytes({"vsu": {}}, keys), ())
 
     def test_whether_the_named_resource_gains_most(self):
         for gains, most, noise in (
@@ -513,7 +544,7 @@ class Reports(unittest.TestCase):
             answer = {"view": 0, "base": base, "doubled": doubled}
             answer |= {"named_gains_most": most, "verdict": "why"}
             with self.subTest(gains):
-                row = binding_check.row("x", answer)
+                row = frame_costs.binding_row("x", answer)
                 self.assertEqual(row[4], gains[0])
                 self.assertEqual(row[6:], (max(gains), most, noise, "" if most else "why"))
 

@@ -9,25 +9,20 @@ import subprocess
 import unittest
 from unittest import mock
 
-from in_folder import REPOSITORY, InFolder, file_of, nightly  # isort: skip (finds the scripts)
-from studies import binding_check
-from studies import boundary_study
-from studies import compare_machines
-from studies import compare_variants
-from studies import energy
-from studies import error_against_time
+from in_folder import REPOSITORY, InFolder, file_of, name_of, nightly  # isort: skip (finds the scripts)
 import explore
 import results
-from studies import half_by_stage
-from studies import published_figures
-from studies import quality_table
 from runs import simulations
-from runs.scenes import Scene
-from studies import stability_table
-from studies import timing
-from studies import training_curves
-from studies import voxel_study
-from studies import work_precision
+from runs.scenes import Failure, Scene
+from studies import error_against_time
+from studies.compare_machines import COMPARE_MACHINES
+from studies.datapath import STABILITY_TABLE
+from studies.error_against_time import ERROR_AGAINST_TIME
+from studies.fitting import BOUNDARY_STUDY, TRAINING_CURVES
+from studies.frame_costs import BINDING_CHECK, ENERGY, TIMING
+from studies.published import PUBLISHED_FIGURES
+from studies.quality import QUALITY_TABLE, VOXEL_STUDY
+from studies.variants import COMPARE_VARIANTS, HALF_BY_STAGE, WORK_PRECISION
 
 SCENE = Scene("toy", "builtin:object")
 
@@ -57,25 +52,25 @@ class Simulator(InFolder):
             ("crash", "os.kill(os.getpid(), signal.SIGKILL)", "^toy exact hfus=2: exit status -9$"),
         ):
             run = simulations.Run(SCENE, overrides=("hfus=2",))
-            with self.subTest(what), self.assertRaisesRegex(simulations.Failure, expected):
+            with self.subTest(what), self.assertRaisesRegex(Failure, expected):
                 simulations.simulate(self.stand_in(body), run)
 
 
 # Script, and the arguments besides a scene that it cannot do without.
 SCRIPTS = (
-    (binding_check, ()),
-    (boundary_study, ()),
-    (compare_variants, ()),
-    (energy, ()),
+    (BINDING_CHECK, ()),
+    (BOUNDARY_STUDY, ()),
+    (COMPARE_VARIANTS, ()),
+    (ENERGY, ()),
     (explore, ("--axis", "hfus=2,4")),
-    (half_by_stage, ()),
-    (quality_table, ()),
-    (timing, ()),
-    (voxel_study, ()),
-    (work_precision, ()),
+    (HALF_BY_STAGE, ()),
+    (QUALITY_TABLE, ()),
+    (TIMING, ()),
+    (VOXEL_STUDY, ()),
+    (WORK_PRECISION, ()),
 )
 # These ask first whether their settings are known, and take no answer but a good one.
-ASKING = (boundary_study, quality_table, voxel_study)
+ASKING = (BOUNDARY_STUDY, QUALITY_TABLE, VOXEL_STUDY)
 
 
 class Ends(InFolder):
@@ -107,7 +102,7 @@ class Ends(InFolder):
                 expected = status, line.replace("truck", "(truck|area)")
                 if what == "differs" and script in ASKING:
                     expected = 1, "info .*: the frame differs$"
-                with self.subTest(what, script=script.__name__):
+                with self.subTest(what, script=name_of(script)):
                     self.check(script, (*needed, *program, *more), *expected)
 
     def test_wall_times_are_of_codebooks_that_are_made(self):
@@ -115,12 +110,15 @@ class Ends(InFolder):
         program = ("--streaminggs", str(keeping), "--out", str(self.folder / "out"))
         with mock.patch.dict("os.environ"):
             os.environ["STREAMINGGS_CACHE"] = "kept"
-            self.check(timing, program, 1, "truck .*: off$")
+            self.check(TIMING, program, 1, "truck .*: off$")
 
     def test_of_one_script(self):
         good = self.stand_in("finish()")
         fifo = self.folder / "fifo"
         os.mkfifo(fifo)
+        other = self.folder / "other.spz"
+        other.touch()
+        shutil.copy(self.scene.with_suffix(".json"), other.with_suffix(".json"))
         for script, arguments, line in (
             (explore, ("--points", "nowhere"), "nowhere: No such file or directory$"),
             *(
@@ -140,11 +138,11 @@ class Ends(InFolder):
                 ("--axis", "group=64,32", "--axis", "group_width_px=64"),
                 "--axis: group_width_px: there are two$",
             ),
-            (training_curves, (), ".*truck.ply: no data set; expected a folder or one of:"),
-            (training_curves, ("--minutes", "-1"), "--minutes, --same-bits: expected 0 or more$"),
+            (TRAINING_CURVES, (), ".*truck.ply: no data set; expected a folder or one of:"),
+            (TRAINING_CURVES, ("--minutes", "-1"), "--minutes, --same-bits: expected 0 or more$"),
             *(
                 (script, arguments, f"{line}$")
-                for script in (compare_machines, timing)
+                for script in (COMPARE_MACHINES, TIMING)
                 for arguments, line in (
                     ((str(self.scene),), "truck: got it twice, expected each scene once"),
                     (("--object-sizes", "4x4", "8x4", "4x4"), "--object-sizes: got 4x4 twice, .*"),
@@ -153,31 +151,36 @@ class Ends(InFolder):
                     (("--view", "9"), "--view: got '9', expected .* truck's cameras, 0 to 0"),
                 )
             ),
-            (published_figures, (str(self.scene),), "truck: got it twice, expected each scene"),
-            (published_figures, ("--view", "x"), "--view: 'x', expected numbers"),
-            (timing, ("--repeats", "0"), "--repeats: got 0, expected a number of 1 or more$"),
+            (PUBLISHED_FIGURES, (str(self.scene),), "truck: got it twice, expected each scene"),
+            (PUBLISHED_FIGURES, ("--view", "x"), "--view: 'x', expected numbers"),
+            (
+                ERROR_AGAINST_TIME,
+                (str(other),),
+                r".*other.spz: renderers take a .ply, expected what `streaminggs convert .* writes$",
+            ),
+            (TIMING, ("--repeats", "0"), "--repeats: got 0, expected a number of 1 or more$"),
             *(
                 (script, (option, value, value), f"{option}: got {value} twice, .* each once$")
                 for script, option, value in (
-                    (error_against_time, "--diagrams", "image"),
-                    (error_against_time, "--rates", "2.0"),
-                    (error_against_time, "--budgets", "1000"),
-                    (error_against_time, "--threads", "1"),
-                    (boundary_study, "--voxels", "0.5"),
-                    (boundary_study, "--betas", "0.5"),
-                    (energy, "--groups", "64"),
-                    (quality_table, "--prices", "0.5"),
-                    (training_curves, "--seeds", "1"),
-                    (voxel_study, "--voxels", "0.5"),
+                    (ERROR_AGAINST_TIME, "--diagrams", "image"),
+                    (ERROR_AGAINST_TIME, "--rates", "2.0"),
+                    (ERROR_AGAINST_TIME, "--budgets", "1000"),
+                    (ERROR_AGAINST_TIME, "--threads", "1"),
+                    (BOUNDARY_STUDY, "--voxels", "0.5"),
+                    (BOUNDARY_STUDY, "--betas", "0.5"),
+                    (ENERGY, "--groups", "64"),
+                    (QUALITY_TABLE, "--prices", "0.5"),
+                    (TRAINING_CURVES, "--seeds", "1"),
+                    (VOXEL_STUDY, "--voxels", "0.5"),
                 )
             ),
             (
-                error_against_time,
+                ERROR_AGAINST_TIME,
                 ("--datasets", str(self.folder), f"{self.folder}/."),
                 "--datasets: got .* twice, expected each once$",
             ),
         ):
-            with self.subTest(script.__name__, arguments=arguments):
+            with self.subTest(name_of(script), arguments=arguments):
                 program = ("--streaminggs", str(good), "--out", str(self.folder / "out"))
                 self.check(script, (*arguments, *program), 2, line)
 
@@ -226,7 +229,7 @@ class Ends(InFolder):
             (str(failing), 1, "failing: exit status 1$"),
         ):
             with self.subTest(program):
-                ended, line, _ = self.ended(stability_table, "--stability", program, "--out", out)
+                ended, line, _ = self.ended(STABILITY_TABLE, "--stability", program, "--out", out)
                 self.assertRegex(line, f"^results.py: {said}")
                 self.assertEqual(ended, status)
                 self.assertEqual(list(self.folder.glob("*/*.csv")), [])
@@ -259,7 +262,7 @@ class Ends(InFolder):
                 program.write_text(f"#!/bin/sh\n{body}\n")
                 program.chmod(0o755)
                 words = ("--diagrams", "renderers", "--renderers", str(program), "--out", out)
-                ended, line, _ = self.ended(error_against_time, str(self.scene), *words)
+                ended, line, _ = self.ended(ERROR_AGAINST_TIME, str(self.scene), *words)
                 self.assertRegex(line, f"^results.py: {said}")
                 self.assertEqual(ended, status)
                 self.assertEqual(list(self.folder.glob("*/*.csv")), [])
@@ -284,7 +287,7 @@ class Ends(InFolder):
         asked = []
         for more, size in (((), "640x360"), (("--size", "8x4"), "8x4")):
             for _ in range(2):
-                status, line, made = self.ended(error_against_time, "builtin:object", *words, *more)
+                status, line, made = self.ended(ERROR_AGAINST_TIME, "builtin:object", *words, *more)
                 self.assertEqual(status, 0, line)
                 for scene in ("builtin:object", "builtin:object?n=300"):
                     for view in (0, 3):

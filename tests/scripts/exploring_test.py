@@ -4,6 +4,7 @@ command."""
 import csv
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -171,8 +172,14 @@ class Exploring(Explorations):
     def test_where_none_holds_the_nearest_is_named(self):
         done = self.explore("finish()", "--axis", "hfus=2,4", "--require", "min(fps) >= 5")
         why = "2 too slow (min(fps) >= 5); the nearest misses min(fps) >= 5 by 20.0%"
-        self.assertIn(f"None of 2 holds: {why}.\n\nThe nearest: hfus=4.\n", done.stdout)
+        self.assertRegex(done.stdout, rf"\n\nNone of 2 holds: {re.escape(why)}: hfus=4\.\n*\Z")
         self.assertIn(f"[2/2] none of 2 holds yet: {why}", done.stderr)
+        self.assertTrue(
+            done.stderr.endswith(f"explore.py: none of 2 holds: {why}: hfus=4\n"), done.stderr
+        )
+        self.assertEqual(done.returncode, run_arguments.NONE_HOLDS)
+        self.assertEqual([row[-2] for row in self.rows("explore.csv")[1:]], ["no", "no"])
+        self.assertEqual(list(self.folder.glob("explore_best*")), [])
         done = self.explore(
             "finish()", "--axis", "hfus=2,4", "--require", "min(fps) >= 5", "--require", "mm2 <= 4"
         )
@@ -299,6 +306,12 @@ class Drawing(Explorations):
         words = ("--axis", "hfus=2,4,8", "--require", "min(fps) >= 3", "--objectives", "cycles")
         done = self.explore("finish()", *words, "--require", "max(cycles) <= 4")
         self.assertEqual((done.returncode, "no figure" in done.stderr), (0, False), done.stderr)
+        # Nor what was never drawn.
+        words = ("--axis", "hfus=2,4,8", "--require", "min(fps) >= 3", "--require", "mm2 <= 1")
+        done = self.explore("finish()", *words)
+        self.assertEqual(done.returncode, run_arguments.NONE_HOLDS)
+        self.assertIn("explore.csv: no configuration was drawn\n", done.stderr)
+        self.assertEqual(list(self.folder.glob("exploration.*")), [])
         # One number alone has nothing to be drawn against; that is no failure.
         done = self.explore("finish()", "--axis", "hfus=2,4")
         self.assertEqual((done.returncode, list(self.folder.glob("exploration.*"))), (0, []))

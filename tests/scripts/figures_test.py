@@ -12,22 +12,21 @@ import xml.etree.ElementTree
 from unittest import mock
 
 from in_folder import COMMAND, REPOSITORY, InFolder, nightly  # isort: skip (finds the scripts)
+import figures
+import tables
 from drawing import block_diagram
 from runs import run_arguments, simulations
 from runs.scenes import find_scene
 from studies import (
-    boundary_study,
     compare_machines,
-    compare_variants,
-    energy,
     error_against_time,
-    fair_fight,
+    fitting,
+    found,
+    frame_costs,
     headline,
-    training_curves,
-    voxel_study,
+    quality,
+    variants,
 )
-import figures
-import tables
 
 SCRIPT = REPOSITORY / "scripts" / "figures.py"
 PYTHONS = (sys.executable, str(run_arguments.DEBIAN))
@@ -85,7 +84,7 @@ TABLES = {
     ),
     "tuning_curve": (
         "boundary_study",
-        names(boundary_study.COLUMNS),
+        names(fitting.LOOK_COLUMNS),
         [
             {
                 "scene": "truck",
@@ -101,7 +100,7 @@ TABLES = {
     ),
     "training_curve": (
         "training_curves",
-        names(training_curves.COLUMNS),
+        names(fitting.CURVE_COLUMNS),
         [
             {"data set": "lego", "seed": 2, "step": step, "seconds": step / 2, "PSNR dB": "20.1"}
             for step in (400, 800)
@@ -110,7 +109,7 @@ TABLES = {
     ),
     "variants": (
         "compare_variants",
-        names(compare_variants.COLUMNS),
+        names(variants.VARIANT_COLUMNS),
         [
             {"scene": "yard", "variant": variant, "M cycles": cycles, "mJ": joules}
             for variant, cycles, joules in (
@@ -124,7 +123,7 @@ TABLES = {
     ),
     "voxel_size": (
         "voxel_study",
-        names(voxel_study.COLUMNS),
+        names(quality.VOXEL_COLUMNS),
         [
             {"scene": "lego", "of the preset's": size, "scene is": state, "PSNR dB": quality}
             for state, quality in (("as given", "inf"), ("tuned", "30.1"))
@@ -158,19 +157,19 @@ TABLES = {
     ),
     "fronts_of_orders": (
         "fair_fight_front",
-        names(fair_fight.FRONT),
+        names(found.FRONT),
         grid("order", ("exact", "paper"), "mm2", (4, 5)),
         ("exact", "paper", "area, mm²"),
     ),
     "equal_area": (
         "fair_fight_views",
-        names(fair_fight.VIEWS),
+        names(found.VIEWS),
         grid("machine", ("preset exact", "paper, found"), "size", ("640x360", "1280x720")),
         ("preset exact", "1280x720 px"),
     ),
     "group_size": (
         "energy_groups",
-        names(energy.GROUP_COLUMNS),
+        names(frame_costs.GROUP_COLUMNS),
         grid("preset", ("exact", "paper_no_vq"), "group px", ("32", "64x32")),
         ("64x32", "clock and leakage"),
     ),
@@ -239,7 +238,7 @@ MADE_TOGETHER = {
     ),
     "error_tuning": (
         "error_tuning",
-        names(error_against_time.TUNING_COLUMNS),
+        names(fitting.TUNING_COLUMNS),
         [
             {"what": "tuning", "of": "truck", "moved": "rate", "to": rate, "seconds": seconds}
             for rate in ("0.5", "1")

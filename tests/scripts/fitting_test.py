@@ -11,9 +11,9 @@ import time
 import unittest
 
 from in_folder import REPOSITORY, InFolder  # isort: skip (finds the scripts)
-from studies import boundary_study, quality_table, subjects, training_curves
-from runs import simulations
 from runs.keeper import Fitted, Fitting, KeptFittings
+from runs.scenes import Failure
+from studies import fitting, quality, subjects
 from studies.subjects import Subject, Tunings
 
 BODY = """
@@ -93,7 +93,7 @@ class Keeping(InFolder):
     def test_what_ends_badly_is_not_kept_and_stops_the_others(self):
         cases = (
             ("refused", ValueError, "^a: streaminggs: --steps: 0$"),
-            ("failing", simulations.Failure, "^a: streaminggs: step 3: not finite$"),
+            ("failing", Failure, "^a: streaminggs: step 3: not finite$"),
         )
         for number, (word, error, text) in enumerate(cases):
             # Another one each time: it would be resumed.
@@ -203,7 +203,7 @@ class Words(InFolder):
     def test_steps_alone_are_as_many_and_as_long(self):
         photographed = Subject("b", "b.ply", dataset="b")
         words = "b.ply --streaming --config exact --data b --steps"
-        alone = quality_table.steps_alone(photographed, self.CALLS)
+        alone = quality.steps_alone(photographed, self.CALLS)
         self.assertEqual(
             {name: " ".join(fitting.words) for name, fitting in alone.items()},
             {
@@ -213,10 +213,10 @@ class Words(InFolder):
         )
         priced = " ".join(self.CALLS.streaming(photographed, 0.03).words)
         self.assertEqual(priced, f"{words} 3 --price 0.03 --test-every 500")
-        self.assertEqual(quality_table.prices_of(photographed, [0.03, 0]), [0, 0.03])
+        self.assertEqual(quality.prices_of(photographed, [0.03, 0]), [0, 0.03])
         scene = Subject("a", "a.ply", "a.json", "64x36", 7)
-        self.assertEqual(quality_table.steps_alone(scene, self.CALLS), {})
-        self.assertEqual(quality_table.prices_of(scene, [0.03]), [0.03])
+        self.assertEqual(quality.steps_alone(scene, self.CALLS), {})
+        self.assertEqual(quality.prices_of(scene, [0.03]), [0.03])
 
     def test_views_are_looked_for_before_anything_is_trained(self):
         program = self.stand_in("print('to train from  9\\nto test with  4 (every 8th by name)')")
@@ -235,23 +235,26 @@ class Words(InFolder):
                 with self.subTest(views, asked=asked):
                     if error:
                         with self.assertRaisesRegex(ValueError, f"^--view: {error}"):
-                            subjects.check_views(program, asked, views)
+                            quality.check_views(program, asked, views)
                     else:
-                        subjects.check_views(program, asked, views)
-        for text, count in (('{"w": 4, "frames": [{}, {}]}', 2), ('{"camera_path": [{}]}', 1)):
-            other = self.folder / "transforms.json"
-            other.write_text(text)
-            self.assertEqual(subjects.camera_count(other), count)
-        other.write_text('{"w": 4}')
-        with self.assertRaisesRegex(ValueError, "transforms.json: got no list, expected cameras"):
-            subjects.camera_count(other)
+                        quality.check_views(program, asked, views)
         built_in = subjects.find_sources(["builtin:object"])
         with self.assertRaisesRegex(ValueError, "expected a file of them"):
-            subjects.check_views(program, built_in, "all")
+            quality.check_views(program, built_in, "all")
 
     def test_a_data_set_is_a_folder(self):
         self.assertEqual(subjects.dataset_folder(str(self.folder)), self.folder)
         self.assertIsNone(subjects.dataset_folder(str(self.scene)))
+
+    def test_a_scene_may_be_a_folder(self):
+        """With cameras elsewhere, beside a data set that has its own."""
+        folder, cameras = self.folder / "streamed", str(self.scene.with_suffix(".json"))
+        folder.mkdir()
+        (folder / "lod-meta.json").touch()
+        photographs = str(self.write_dataset())
+        scene, dataset = subjects.find_sources([str(folder), photographs], [cameras])
+        self.assertEqual((scene.name, scene.cameras), ("streamed", cameras))
+        self.assertEqual(str(dataset), photographs)
 
 
 class Numbers(InFolder):
@@ -259,7 +262,7 @@ class Numbers(InFolder):
         keys = ("test_psnr_db", "reference_psnr_db", "misordered_gaussians", "misordered_pixels")
         looks = [(0, 20, 40, 0.5, 0.2, 0.01), (9, 24, 30, 0.1, 0.1, 0)]
         log = [dict(zip(("step", *keys, "l_cbp"), map(str, look))) for look in looks]
-        row = boundary_study.summary_row(
+        row = fitting.boundary_row(
             ("a", 0.4, 1, 0.05), Fitted(None, pathlib.Path(), log, 1.0)
         )
         self.assertEqual(row[4:], (9, 40, 20, 24, 30, 0.5, 0.1, 0.2, 0.1, 0.01, 0))
@@ -269,12 +272,12 @@ class Numbers(InFolder):
             return {"target": {"psnr_db": psnr_db}}
 
         for psnr_db, mean in (((20.0, 30.0), 25), ((20.0, None), 20), ((None, None), math.inf)):
-            self.assertEqual(subjects.mean_psnr(list(map(view, psnr_db))), mean)
+            self.assertEqual(quality.mean_psnr(list(map(view, psnr_db))), mean)
 
     def test_infinity_of_compare(self):
         for text, psnr_db in (("inf", None), ("31.5", 31.5)):
             program = self.stand_in(f"print('psnr_db {text}'); print('ssim 0.9')")
-            found = subjects.compared(program, self.scene, self.scene)
+            found = quality.compared(program, self.scene, self.scene)
             self.assertEqual(found, (psnr_db, 0.9))
 
     def test_scenes_that_differ_are_a_failure(self):
@@ -284,9 +287,9 @@ class Numbers(InFolder):
             return Fitted(Fitting("lego", "train", ()), self.folder / name, log, 1.0)
 
         same = [fitted("a", "bits"), fitted("b", "bits")]
-        self.assertEqual(training_curves.compared_bits(same), "after 1,500 steps")
-        with self.assertRaisesRegex(simulations.Failure, "lego: 1500 steps, twice: .* differ"):
-            training_curves.compared_bits([same[0], fitted("c", "bitz")])
+        self.assertEqual(fitting.compared_bits(same), "after 1,500 steps")
+        with self.assertRaisesRegex(Failure, "lego: 1500 steps, twice: .* differ"):
+            fitting.compared_bits([same[0], fitted("c", "bitz")])
 
 
 if __name__ == "__main__":

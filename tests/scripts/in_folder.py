@@ -24,6 +24,7 @@ os.environ["STREAMINGGS_CACHE"] = "off"  # the user's is none of theirs
 
 
 import results  # isort: skip (found only now)
+from tables import Study  # isort: skip
 
 # Marks a test or a class that takes long. A shorter test enters the same code.
 nightly = unittest.skipUnless(os.environ.get("SGS_NIGHTLY"), "nightly: $SGS_NIGHTLY is not set")
@@ -160,10 +161,9 @@ class InFolder(unittest.TestCase):
         """Exit status, last line of stderr and stdout of a script that gets these arguments. A study
         of results.py keeps in the test's folder what it simulates, trains and tunes."""
         out, said = io.StringIO(), io.StringIO()
-        words = [f"{script.__name__}.py", *arguments]
-        if is_study(script):
-            name = script.__name__.removeprefix("studies.")
-            words = ["results.py", name, *arguments, "--kept", str(self.folder / "kept")]
+        words = [file_of(script), *arguments]
+        if isinstance(script, Study):
+            words = ["results.py", script.name, *arguments, "--kept", str(self.folder / "kept")]
             script = results
         with mock.patch("sys.argv", words), contextlib.redirect_stdout(out):
             with contextlib.redirect_stderr(said):
@@ -171,10 +171,11 @@ class InFolder(unittest.TestCase):
         return status, said.getvalue().rstrip().rpartition("\n")[2], out.getvalue()
 
 
-def is_study(script) -> bool:
-    return script.__name__.startswith("studies.")
+def name_of(script) -> str:
+    """Of a study, or of the module of another script."""
+    return script.name if isinstance(script, Study) else script.__name__
 
 
 def file_of(script) -> str:
     """That a user starts."""
-    return "results.py" if is_study(script) else f"{script.__name__}.py"
+    return "results.py" if isinstance(script, Study) else f"{script.__name__}.py"

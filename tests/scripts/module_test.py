@@ -3,6 +3,7 @@
 import importlib.util
 import math
 import pathlib
+import subprocess
 import sys
 import unittest
 from unittest import mock
@@ -140,6 +141,19 @@ class Running(InFolder):
         kept = results.read_text()
         again = self.sweep(points, results=results, **more)
         self.assertEqual((again, results.read_text()), (rows, kept))
+
+    def test_scenes_and_cameras_of_other_forms(self):
+        """A packed scene on all views of a data set."""
+        packed, photographs = self.folder / "packed.sgs", self.write_dataset()
+        words = ["pack", str(self.scene), "--out", str(packed)]
+        words += ["--cameras", str(self.scene.with_suffix(".json"))]
+        subprocess.run([COMMAND, *words], check=True, capture_output=True)
+        rows = streaminggs.sweep(
+            [{}], [packed], "all", cameras=photographs, size="64x48", program=COMMAND
+        )
+        rows = rows if isinstance(rows, list) else rows.to_dict("records")
+        self.assertEqual([row["view"] for row in rows], list(range(9)))
+        self.assertEqual({(row["scene"], row["status"]) for row in rows}, {("packed", "done")})
 
     def test_what_a_sweep_is_refused(self):
         for point, more, other, said in (

@@ -9,14 +9,12 @@ import unittest
 from unittest import mock
 
 from in_folder import COMMAND, InFolder, nightly  # isort: skip (finds the scripts)
-from reporting import charts
 import report
-
-from runs import simulations
-from runs.scenes import find_scene
-from chromium import Chromium
-from page_checks import NEEDS_BROWSER, PageChecks
+from reporting import charts
 from reporting.folder import find_runs, flat
+from runs import simulations
+from runs.scenes import call, find_scene
+from chromium import NEEDS_BROWSER, Chromium, PageChecks
 
 NEEDS_COMMAND = unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")
 
@@ -102,7 +100,7 @@ class Page(WithFrames):
         folder = self.folder / "path"
         words = ["builtin:object?n=100", "--size", "32x18", "--path", "builtin:path"]
         words += ["--frames", "2", "--out", str(folder)]
-        done = simulations.call(pathlib.Path(COMMAND), words)
+        done = call(pathlib.Path(COMMAND), words)
         self.assertEqual(done.returncode, 0, done.stderr)
         page = self.page(folder)
         summary = json.loads((folder / "path.json").read_text())["summary"]

@@ -1,6 +1,7 @@
 """Tables of results: both files, the Markdown that comes from them, and places in READMEs."""
 
 import contextlib
+import dataclasses
 import importlib
 import io
 import json
@@ -18,7 +19,10 @@ import tables
 from exploring import options
 from exploring.record import SETTING
 from reporting import results_page
-from studies import smallest_machine
+from runs.files import content_digest, write_text
+from runs.scenes import Scene
+from studies import found
+from studies.found import SMALLEST_MACHINE
 from tables import Column, Made, Spread
 
 BY = Made("scripts/results.py one truck", ("abc",))
@@ -109,7 +113,7 @@ class Writing(InFolder):
         program.write_text("it")
         told = [{"commit": "b", "version": "1"}, {"commit": ""}, {"commit": "a", "version": "1"}]
         with mock.patch("sys.argv", words):
-            scenes = [tables.Scene("truck", str(self.scene)), tables.Scene("b", "builtin:b?n=1")]
+            scenes = [Scene("truck", str(self.scene)), Scene("b", "builtin:b?n=1")]
             by = tables.made(program, told, [*scenes, self.write_dataset()])
         self.assertEqual(by.command, "scripts/results.py one truck --cross")
         self.assertEqual((by.commits, by.releases), (("a", "b"), ("1",)))
@@ -165,7 +169,7 @@ class Places(InFolder):
     def test_no_half_file(self):
         with mock.patch("os.replace", side_effect=OSError(28, "No space left on device")):
             with self.assertRaises(OSError):
-                tables.write_text(self.folder / "one", "text")
+                write_text(self.folder / "one", "text")
         self.assertEqual(list(self.folder.glob("one*")), [])
 
 
@@ -240,15 +244,38 @@ class Pages(InFolder):
 
     def test_tables_that_nobody_can_make_again(self):
         """Also where all are alike in it."""
+        typed, again = "one (`y`), two (`y`)", "one (--all energy), two (--all energy)"
         for by, said in (
-            (Made("y", ()), "tables name no commit"),
-            (Made("y", ("abc",)), "tables name no release"),
-            (Made("y", ("abc-dirty",), ("0.2.0",)), "tables are of uncommitted sources"),
+            (Made("y", ()), f"tables name no commit, since no study writes them: {typed}"),
+            (
+                Made("scripts/results.py energy truck", ()),
+                f"tables name no commit, to be made again: {again}",
+            ),
+            (Made("y", ("abc",)), "tables name no release: one, two"),
+            (Made("y", ("abc-dirty",), ("1",)), "tables are of uncommitted sources: one, two"),
         ):
             for name in ("one", "two"):
                 self.write_table(name, by)
             with self.subTest(by):
-                self.assertEqual(results_page.faults(self.tables), [f"2 {said}: one, two"])
+                self.assertEqual(results_page.faults(self.tables), [f"2 {said}"])
+
+    def test_tables_that_are_made_of_tables(self):
+        """With what is wrong in these."""
+        digest = content_digest(self.tables / "one.csv")
+        of_one = Made("y", ("abc",), ("0.2.0",), inputs={"one.csv": digest})
+        self.write_table("two", of_one)
+        self.assertEqual(results_page.faults(self.tables), [])
+        self.write_table("one", Made("x", ("abc",)))
+        said = "two is made of tables that name no release: one"
+        self.assertIn(said, results_page.faults(self.tables))
+        self.write_table("two", dataclasses.replace(of_one, commits=("abc", "d")))
+        self.assertIn("1 tables mix commits: two (abc, d)", results_page.faults(self.tables))
+        self.write_table("two", dataclasses.replace(of_one, releases=("0.1.0", "0.2.0")))
+        said = "1 tables mix releases: two (0.1.0, 0.2.0)"
+        self.assertIn(said, results_page.faults(self.tables))
+        self.write_table("two", dataclasses.replace(of_one, inputs={"one.csv": "another"}))
+        said = "two was made of another one.csv than there is"
+        self.assertIn(said, results_page.faults(self.tables))
 
     def test_check_from_the_command_line(self):
         words = ("--check", "--tables", str(self.tables))
@@ -293,7 +320,7 @@ class Pages(InFolder):
 class Smallest(InFolder):
     """Of explorations that are made up."""
 
-    HEAD = ("hfus", "mm2", *smallest_machine.SHOWN, "min(fps) >= 90", "slowest view", "front")
+    HEAD = ("hfus", "mm2", *found.SHOWN, "min(fps) >= 90", "slowest view", "front")
 
     def explored(self, *rows: tuple) -> str:
         columns = [Column(name, SETTING if name == "hfus" else "") for name in self.HEAD]
@@ -308,7 +335,7 @@ class Smallest(InFolder):
         better_picture = (4, 5.5, *self.BEST[2:])
         found = self.explored(self.START, better_picture, self.BEST)
         words = ("--found", found, "--out", str(self.folder))
-        status, line, _ = self.ended(smallest_machine, *words)
+        status, line, _ = self.ended(SMALLEST_MACHINE, *words)
         self.assertEqual(status, 0, line)
         (row,) = tables.read_rows(self.folder, "smallest_machine")
         torn = self.folder / "torn.csv"
@@ -330,7 +357,7 @@ class Smallest(InFolder):
             (("--found", "1x1=nowhere"), "nowhere/explore.json: No such file"),
         ):
             with self.subTest(said):
-                status, line, _ = self.ended(smallest_machine, *words, "--out", str(self.folder))
+                status, line, _ = self.ended(SMALLEST_MACHINE, *words, "--out", str(self.folder))
                 self.assertEqual(status, 2)
                 self.assertIn(said, line)
 
@@ -362,10 +389,15 @@ if of == "b":
         (self.folder / "make.py").write_text(f"""\
 import pathlib, sys
 sys.path.insert(0, {str(REPOSITORY / "scripts")!r})
-from tables.jobs import Jobs
+from results import Jobs
+from tables import Study
+def arguments(to):
+    to.add_argument("scenes", nargs="*")
+    to.add_argument("--program", type=pathlib.Path)
 here = pathlib.Path({str(self.folder)!r})
 jobs = Jobs(here / "truck.ply", here / "scripts", here / "kept", here)
-jobs.make("one", sys.argv[1:], here / "made")
+study = Study("one", "", sys.argv[1:], arguments, print, {{"another": ["read"]}})
+jobs.make(study, here / "made")
 """)
 
     def words(self, *calls: str) -> list[str]:
@@ -414,6 +446,42 @@ jobs.make("one", sys.argv[1:], here / "made")
         facts = json.loads((self.folder / "made" / "one.json").read_text())
         self.assertGreater(facts["made"]["minutes"], first)
 
+    def test_what_a_job_reads(self):
+        """Scenes and data sets of ../shared by name, all of them without one, programs, tables of
+        another study: of each change it is made again."""
+        shared, program = self.folder / "shared", self.folder / "program"
+        table = self.folder / "made" / "read.csv"
+        files = [shared / path for path in ("scenes/a.ply.xz", "cameras/a.json", "data/b/image")]
+        for path in (*files, program, table):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.touch()
+        times = 0
+        for call, changed in (
+            (f"results.py one a --program {program}", (files[0], files[1], program, table)),
+            ("results.py one b", (files[2],)),
+            ("results.py one", files),
+        ):
+            for path in (None, *changed):
+                with self.subTest(call, changed=path):
+                    if path:
+                        path.write_text(f"{path} {times}")
+                    times += 1
+                    with mock.patch.dict("os.environ", SGS_SHARED=str(shared)):
+                        for _ in range(1 if path else 2):
+                            subprocess.run(self.words(call), check=True)
+                            self.assertEqual(len(self.calls()), times)
+
+    def test_studies_come_behind_those_that_they_read(self):
+        known = results.studies()
+        order = results.in_order(known, known)
+        self.assertEqual(sorted(order), list(known))
+        for name, study in known.items():
+            for other in study.reads:
+                self.assertLess(order.index(other), order.index(name), (other, name))
+        self.assertLess(order.index("quality_table"), order.index("headline"))
+        few = ["headline", "quality_table"]
+        self.assertEqual(results.in_order(known, few), ["quality_table", "headline"])
+
     def test_what_fails_writes_no_table(self):
         done = subprocess.run(
             self.words("results.py one a", "results.py one bad"), stderr=subprocess.PIPE, text=True
@@ -425,9 +493,8 @@ jobs.make("one", sys.argv[1:], here / "made")
     def test_questions_name_columns_that_studies_write(self):
         """So that a table made again can be shown."""
         written = set()
-        for name in results.studies():
-            study = vars(importlib.import_module(f"studies.{name}"))
-            for value in study.values():
+        for path in results.STUDIES.glob("*.py"):
+            for value in vars(importlib.import_module(f"studies.{path.stem}")).values():
                 if isinstance(value, tuple):
                     written |= {of.name for of in value if isinstance(of, Column)}
         for of in results_page.questions(results.TABLES):
@@ -435,20 +502,21 @@ jobs.make("one", sys.argv[1:], here / "made")
                 self.assertEqual({*of.columns, *of.rows} - written, set())
 
     def test_every_study_states_one_that_it_takes(self):
-        for name in results.studies():
-            calls = importlib.import_module(f"studies.{name}").JOBS
+        known = results.studies()
+        for name, study in known.items():
+            calls = study.jobs
             self.assertTrue(any(call.startswith(f"results.py {name}") for call in calls), name)
             for script, *words in map(shlex.split, calls):
                 with self.subTest(name, words=words):
                     if script == "results.py":
-                        results.parser_of(words[0])[0].parse_args(words[1:])
+                        results.parser_of(known[words[0]]).parse_args(words[1:])
                     else:
                         self.assertEqual(script, "explore.py")
                         self.assertIn(words[words.index("--recipe") + 1], options.recipes())
 
     def test_one_study_alone_does_not_write_over_the_tables_of_this_repository(self):
-        for name in results.studies():
-            arguments = results.parser_of(name)[0].parse_args([])
+        for study in results.studies().values():
+            arguments = results.parser_of(study).parse_args([])
             self.assertEqual(arguments.out, results.OUT)
         self.assertFalse(results.OUT.is_relative_to(results.TABLES))
 
@@ -458,7 +526,7 @@ jobs.make("one", sys.argv[1:], here / "made")
             ("abc-dirty", ("--all",), "commit abc-dirty, expected one of committed sources"),
         ):
             with self.subTest(said), mock.patch.object(
-                results.simulations, "program_provenance", return_value={"commit": commit}
+                results, "program_provenance", return_value={"commit": commit}
             ):
                 status, line, _ = self.ended(results, *words)
                 self.assertEqual(status, 2)

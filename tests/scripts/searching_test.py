@@ -13,15 +13,14 @@ import unittest
 from in_folder import COMMAND, InFolder, nightly  # isort: skip (finds the scripts)
 import explore
 from exploring import options
-from exploring.axes import ORDERS, axis, nearest
-from exploring.record import Record, Work
+from exploring.axes import ORDERS, Space, axis, keys_of, nearest, parse_axis
 from exploring.judging import SMALL, Judge, Judged, Task, relative_to
 from exploring.measures import objective, requirement
-from exploring.space import Space, keys_of, parse_axis
+from exploring.record import Record, Work
 from exploring.steps import Steps
 from runs import simulations
 from runs.scenes import Scene
-from studies import fair_fight
+from studies import found
 
 AXES = (
     axis("hfus", 1, 2, 4, 8),
@@ -423,7 +422,7 @@ class Fronts(unittest.TestCase):
             ("exact", 30.0, bus, cycles, 1.0, 5.0, "")
             for cycles, bus in ((1010, 900), (1005, 900), (2000, 300), (2000, 1000))
         ]
-        self.assertEqual(fair_fight.near_front(points), [False, True, True, False])
+        self.assertEqual(found.near_front(points), [False, True, True, False])
 
 
 if __name__ == "__main__":

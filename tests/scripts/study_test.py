@@ -135,15 +135,15 @@ class Studies(InFolder):
     def test_what_is_too_large_is_told_and_not_drawn(self):
         at_once = 'if "64x36" in sys.argv: finish(); sys.exit()'
         self.stand_in(self.BODY.replace("time.sleep(0.5)", at_once))
-        for most, held, why in (
-            (4, 3, "3 hold mm2 <= 4"),
-            (1, 0, r"None of 8 holds: 8 too large \(mm2 <= 1\); the nearest misses mm2 <= 1"),
+        for most, held, status, why in (
+            (4, 3, 0, "3 hold mm2 <= 4"),
+            (1, 0, 3, r"None of 8 holds: 8 too large \(mm2 <= 1\); the nearest misses mm2 <= 1"),
         ):
             (self.folder / "drawn").unlink(missing_ok=True)
             words = ("--search", "random", "--require", f"mm2 <= {most}")
             done = subprocess.run(self.words(f"{most}", *words), capture_output=True, text=True)
             with self.subTest(most):
-                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(done.returncode, status, done.stderr)
                 self.assertRegex(done.stdout, why)
                 self.assertEqual(self.drawn(), list(range(1, held + 1)))
                 self.assertEqual(len(self.rows(f"{most}")), 1 + 8)

@@ -13,8 +13,7 @@ from unittest import mock
 from in_folder import COMMAND, InFolder, nightly  # isort: skip (finds the scripts)
 import report
 from reporting import sweep
-from chromium import Chromium
-from page_checks import NEEDS_BROWSER, PageChecks
+from chromium import NEEDS_BROWSER, Chromium, PageChecks
 from reporting.sweep import read_sweep
 
 

@@ -33,9 +33,10 @@ import zlib
 from collections.abc import Callable, Iterator, Sequence
 
 import in_folder  # noqa: F401, isort: skip (finds the scripts)
-from reporting import charts
-from runs import run_arguments, simulations
 import tables
+from reporting import charts
+from runs import run_arguments
+from runs.scenes import BINARY, REPOSITORY, Failure
 from tables import Column
 
 SCENE = ("builtin:object?n=60", "--size", "16x16")
@@ -197,7 +198,7 @@ class Bench:
                 self.command(words), cwd=self.start, capture_output=True, text=True, check=False
             )
             if done.returncode:
-                raise simulations.Failure(f"{' '.join(words)}: {done.stderr.strip()}")
+                raise Failure(f"{' '.join(words)}: {done.stderr.strip()}")
         self.before = files_below(self.start)
         self.good = self.undisturbed()
         new = {name: len(b) for name, b in self.good.items() if self.before.get(name) != b}
@@ -209,7 +210,7 @@ class Bench:
     def command(self, words: Sequence[str]) -> list[str]:
         program, *arguments = words
         if program == SCRIPTS:
-            script = simulations.REPOSITORY / SCRIPTS / arguments[0]
+            script = REPOSITORY / SCRIPTS / arguments[0]
             return [sys.executable, "-B", str(script), *arguments[1:]]
         return [*self.programs[program], *arguments]
 
@@ -241,7 +242,7 @@ class Bench:
     def undisturbed(self) -> dict[str, bytes]:
         ended = self.run()
         if ended.status:
-            raise simulations.Failure(f"{' '.join(self.work.words)}: {ended.said.strip()}")
+            raise Failure(f"{' '.join(self.work.words)}: {ended.said.strip()}")
         return files_below(self.place)
 
     def most_calls(self, fault: Fault, whose: Sequence[str]) -> int:
@@ -331,7 +332,7 @@ def tried(
                 numbers = chosen(bench.most_calls(fault, follow), most)
                 series(fault.name, whose, numbers, functools.partial(bench.wrong_at, fault, follow))
         if not rows:
-            raise simulations.Failure(f"{name}: no trial: strace saw no write")
+            raise Failure(f"{name}: no trial: strace saw no write")
         sizes = [number - 1 for number in chosen(bench.most_bytes, most or SIZES)]
         series(FULL, "all it starts", sizes, bench.wrong_in)
     return rows
@@ -353,7 +354,7 @@ def make(arguments: argparse.Namespace) -> None:
     by = tables.made(arguments.streaminggs, ())
     tables.write(arguments.out, "write_faults", by, COLUMNS, rows)
     if any(row[-1] for row in rows):
-        raise simulations.Failure(f"{sum(row[-1] for row in rows)} found")
+        raise Failure(f"{sum(row[-1] for row in rows)} found")
 
 
 def main() -> int:
@@ -363,11 +364,11 @@ def main() -> int:
         "--most", type=int, default=0, help="trials of a fault; 0: one for every call"
     )
     parser.add_argument(
-        "--streaminggs", type=pathlib.Path, default=simulations.BINARY, metavar="PROGRAM",
+        "--streaminggs", type=pathlib.Path, default=BINARY, metavar="PROGRAM",
         help="the command",
     )  # fmt: skip
     parser.add_argument(
-        "--out", type=pathlib.Path, default=simulations.REPOSITORY / "out", metavar="FOLDER",
+        "--out", type=pathlib.Path, default=REPOSITORY / "out", metavar="FOLDER",
         help="for tables",
     )  # fmt: skip
     return run_arguments.main_of_tables(make, parser.parse_args())

@@ -1,22 +1,4 @@
-"""Both orders in one area, each with the machine that explore.py found for it, beside presets. For
-each order its recipe comes first:
-
-  scripts/explore.py SCENE... --recipe exact_in_area --out out/exact
-  scripts/explore.py SCENE... --recipe paper_in_area --out out/paper
-  scripts/results.py fair_fight SCENE... --found exact=out/exact paper=out/paper
-
-Makes
-
-  fair_fight_views    of each size, scene, machine and view
-  fair_fight_scenes   of each size, scene and machine: means over the views; the worst frame rate
-                      and waiting
-  fair_fight_summary  of each size and machine: geometric means over the scenes of these
-  fair_fight_front    of all that was tried for both orders what no other one beats in picture,
-                      bytes, time, energy and area, compared in steps of 5 % and 1 dB
-
-Frames are of 8-bit pixels; the dB of scenes and of the summary are of frames in floats where 8 bits
-would hide them.
-"""
+"""Studies of machines that explorations found."""
 
 from __future__ import annotations
 
@@ -25,25 +7,25 @@ import dataclasses
 import math
 import pathlib
 import statistics
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import tables
 from exploring.record import SETTING
-from tables import SCENE, SIZE, VIEW, Column
 from runs import run_arguments
-from runs.front import pareto_front
+from runs.keeper import swept
 from runs.scenes import Scene, find_scenes
-from runs.simulations import MB, MJ, Outcome, Run, binders, decibels, numbers, vsu_waits
-from runs.sweep_server import swept
-
-JOBS = (
-    "explore.py park platform yard garden truck playbot --recipe exact_in_area "
-    "--out out/exact",
-    "explore.py park platform yard garden truck playbot --recipe paper_in_area "
-    "--out out/paper",
-    "results.py fair_fight park platform yard garden truck playbot "
-    "--found exact=out/exact paper=out/paper",
+from runs.simulations import (
+    MB,
+    MJ,
+    Outcome,
+    Run,
+    binders,
+    decibels,
+    numbers,
+    pareto_front,
+    vsu_waits,
 )
+from tables import REQUIRED, SCENE, SIZE, VIEW, Column, Made, Study, measure_of
 
 PRESETS = ("exact", "paper", "exact_wide")
 BESIDE = "paper"  # whose cycles those of all others are held against
@@ -192,7 +174,7 @@ def near_front(points: Sequence[tuple]) -> list[bool]:
     return [best and first[of] == n for n, (best, of) in enumerate(zip(pareto_front(boxes), boxes))]
 
 
-def add_arguments(to: run_arguments.Parser) -> None:
+def add_fight_arguments(to: run_arguments.Parser) -> None:
     run_arguments.add_scenes(to)
     run_arguments.add_view(to, "all")
     run_arguments.add_side_by_side(to)
@@ -207,10 +189,10 @@ def add_arguments(to: run_arguments.Parser) -> None:
     to.add_argument("--sizes", nargs="+", default=["640x360", "1280x720"], metavar="WxH")
 
 
-def make(arguments: argparse.Namespace) -> None:
+def make_fair_fight(arguments: argparse.Namespace) -> None:
     for option in ("found", "presets", "sizes"):
         run_arguments.check_once(f"--{option}", getattr(arguments, option))
-    scenes = find_scenes(arguments.scenes)
+    scenes = find_scenes(arguments.scenes, arguments.cameras)
     folders = dict(text.partition("=")[::2] for text in arguments.found)
     machines = [Machine(f"preset {name}", preset=name) for name in arguments.presets]
     machines += [
@@ -248,3 +230,135 @@ def make(arguments: argparse.Namespace) -> None:
     rows = [(*point, best) for point, best in zip(points, near_front(points))]
     only = {"on the front": "yes"}
     tables.write(arguments.out, "fair_fight_front", by, FRONT, rows, only=only)
+
+
+FAIR_FIGHT = Study(
+    "fair_fight",
+    """Both orders in one area, each with the machine that explore.py found for it, beside presets. For
+each order its recipe comes first:
+
+  scripts/explore.py SCENE... --recipe exact_in_area --out out/exact
+  scripts/explore.py SCENE... --recipe paper_in_area --out out/paper
+  scripts/results.py fair_fight SCENE... --found exact=out/exact paper=out/paper
+
+Makes
+
+  fair_fight_views    of each size, scene, machine and view
+  fair_fight_scenes   of each size, scene and machine: means over the views; the worst frame rate
+                      and waiting
+  fair_fight_summary  of each size and machine: geometric means over the scenes of these
+  fair_fight_front    of all that was tried for both orders what no other one beats in picture,
+                      bytes, time, energy and area, compared in steps of 5 % and 1 dB
+
+Frames are of 8-bit pixels; the dB of scenes and of the summary are of frames in floats where 8 bits
+would hide them.
+""",
+    (
+        "explore.py park platform yard garden truck playbot --recipe exact_in_area "
+        "--out out/exact",
+        "explore.py park platform yard garden truck playbot --recipe paper_in_area "
+        "--out out/paper",
+        "results.py fair_fight park platform yard garden truck playbot "
+        "--found exact=out/exact paper=out/paper",
+    ),
+    add_fight_arguments,
+    make_fair_fight,
+)
+
+
+SHOWN = ("max(watts)", "max(joules)", "area_mm2.bands.total.low", "mm2_high")
+RECIPE = "explore.py truck platform yard --recipe smallest"
+SMALLEST_COLUMNS = (
+    Column("size px", "width and height of a view", "px"),
+    Column("fps wanted", "frames a second that every view holds", "1/s", "g"),
+    Column("mm2", "area", "mm2", ".2f"),
+    Column("mm2 of the band, least", "area by the low ends of its sources", "mm2", ".2f"),
+    Column("mm2 of the band, most", "area by the high ends of its sources", "mm2", ".2f"),
+    Column("W, most", "mean power of the view that takes most", "W", ".2f"),
+    Column("mJ, most", "energy of the view that takes most", "mJ", ".2f"),
+    Column("fps, worst view", "frames a second of the slowest view", "1/s", ".1f"),
+    Column("which", "the slowest view"),
+    Column("at the start: fps", "the same of the machine that the search began with", "1/s", ".0f"),
+    Column("at the start: mm2", "its area", "mm2", ".2f"),
+    Column("setting", "by key"),
+)
+
+
+def required_rate(folder: pathlib.Path, row: Mapping[str, str]) -> str:
+    """The column. Raises ValueError."""
+    for column in row:
+        if REQUIRED.fullmatch(column) and measure_of(column) == "fps":
+            return column
+    raise ValueError(f"{folder}/explore.csv: no bound on fps, expected --require 'min(fps) >= N'")
+
+
+def smallest_row(size: str, folder: pathlib.Path) -> tuple:
+    """Raises ValueError, OSError."""
+    rows = tables.read_rows(folder, "explore")
+    front = [row for row in rows if row["front"] == "yes"]
+    if not front:
+        raise ValueError(f"{folder}/explore.csv: no machine holds what was required")
+    if missing := [name for name in ("mm2", *SHOWN) if name not in front[0]]:
+        raise ValueError(f"{folder}/explore.csv: no column {', '.join(missing)}; --show has it")
+    best = min(front, key=lambda row: float(row["mm2"]))
+    rate = required_rate(folder, best)
+    columns = tables.facts_of(folder, "explore")["columns"]
+    keys = [column["name"] for column in columns if column["meaning"] == SETTING]
+    watts, joules, low, high = (float(best[name]) for name in SHOWN)
+    return (
+        *(size, float(REQUIRED.fullmatch(rate)[3]), float(best["mm2"]), low, high, watts),
+        *(1e3 * joules, float(best[rate]), best["slowest view"]),
+        *(float(rows[0][rate]), float(rows[0]["mm2"])),
+        " ".join(f"{key}={best[key]}" for key in keys),
+    )
+
+
+def add_smallest_arguments(to: run_arguments.Parser) -> None:
+    to.add_argument(
+        "--found",
+        nargs="+",
+        default=[],
+        metavar="WxH=FOLDER",
+        help="--out of an exploration of frames of a size",
+    )
+
+
+def make_smallest_machine(arguments: argparse.Namespace) -> None:
+    found = dict(text.partition("=")[::2] for text in arguments.found)
+    if not found:
+        raise ValueError("--found: expected WxH=FOLDER, explore.py makes it")
+    folders = [pathlib.Path(folder) for folder in found.values()]
+    made = [Made(**tables.facts_of(folder, "explore")["made"]) for folder in folders]
+    by = Made(
+        run_arguments.command_line(),
+        tuple(sorted({commit for each in made for commit in each.commits})),
+        tuple(sorted({release for each in made for release in each.releases})),
+        made[0].program,
+        {name: digest for each in made for name, digest in each.inputs.items()},
+    )
+    rows = [smallest_row(size, folder) for size, folder in zip(found, folders)]
+    tables.write(arguments.out, "smallest_machine", by, SMALLEST_COLUMNS, rows)
+
+
+SMALLEST_MACHINE = Study(
+    "smallest_machine",
+    """The smallest machine of exact order that holds a frame rate, for sizes of frames: the best of
+explorations, and what they began with. For each size its exploration comes first:
+
+  scripts/explore.py SCENE... --recipe smallest --size WxH --out FOLDER --show \
+    max(watts),max(joules),area_mm2.bands.total.low,mm2_high
+  scripts/results.py smallest_machine --found WxH=FOLDER...
+
+Makes smallest_machine, a line for each size.
+""",
+    (
+        *(
+            f"{RECIPE} --size {size} --show '{','.join(SHOWN)}' --out out/smallest_{size}"
+            for size in ("1280x720", "2560x1440")
+        ),
+        "results.py smallest_machine --found 1280x720=out/smallest_1280x720 "
+        "2560x1440=out/smallest_2560x1440",
+    ),
+    add_smallest_arguments,
+    make_smallest_machine,
+)

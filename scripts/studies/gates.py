@@ -1,12 +1,20 @@
-"""Energy of a netlist of library cells: how often its nets switch under random operands, in all
-cycles at once (the bits of a Python integer are cycles), and what the library says of a change."""
+"""Libraries of cells, and the energy of netlists of their cells: how often nets switch under random
+operands, in all cycles at once (the bits of a Python integer are cycles), and what the library says
+of a change."""
 
 from __future__ import annotations
 
 import dataclasses
+import gzip
+import pathlib
+import random
 import re
+import shutil
 import statistics
-from collections.abc import Callable, Mapping, Sequence
+import subprocess
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+from runs.scenes import Failure
 
 Bit = int | str  # of a netlist: a net's number, or the constant 0, 1, x
 Values = dict[Bit, int]
@@ -184,3 +192,167 @@ def netlist_of(module: Mapping, cells: Mapping[str, Cell], register: Cell) -> Ne
         for pin, bit in inputs.items():
             load[bit] = load.get(bit, 0.0) + cell.capacitance_pf[pin]
     return Netlist(gates, registers, register, load)
+
+
+NODE_NM = 32
+
+# Energy goes with the gates' length and the square of the voltage.
+NODE_VOLTS = 0.9
+NODES_NM = {"osu018": 180, "sg13g2": 130, "sky130": 130, "nangate45": 45}
+CYCLES = 1000  # of random operands
+
+# Cells that a mapper is not to choose: for power domains, clocks, delays, scan and layout.
+NOT_MAPPED = re.compile(r"lpflow|clk|dly|probe|sighold|antenna|decap|fill|spare|l?gcp|_s?edf|_sdf")
+DELAY = re.compile(r"Delay = *([\d.]+) ps")
+
+
+@dataclasses.dataclass(frozen=True)
+class Library:
+    """path: its cells without those that are not to be mapped."""
+
+    name: str
+    path: pathlib.Path
+    nand2_um2: float
+    register_um2: float
+    fo4_ps: float
+    volts: float
+    cells: dict[str, Cell]
+    register: Cell
+
+    def at_node(self, pj: float) -> float:
+        """At 32 nm. Raises ValueError where the library's node is not known."""
+        for part, nm in NODES_NM.items():
+            if part in self.name.lower():
+                return pj * NODE_NM / nm * (NODE_VOLTS / self.volts) ** 2
+        raise ValueError(f"{self.name}: node unknown, expected one of {', '.join(NODES_NM)}")
+
+
+def cells_of(liberty: str) -> Iterator[tuple[str, int, int]]:
+    """Name, beginning and end of each cell's group."""
+    for head in re.finditer(r'^[ \t]*cell\s*\(\s*"?(\w+)"?\s*\)\s*\{', liberty, re.MULTILINE):
+        depth, end = 1, head.end()
+        for brace in re.compile(r"[{}]").finditer(liberty, head.end()):
+            depth += 1 if brace.group() == "{" else -1
+            if depth == 0:
+                end = brace.end()
+                break
+        yield head.group(1), head.start(), end
+
+
+def one_word(pattern: str, text: str, what: str) -> str:
+    found = re.search(pattern, text)
+    if not found:
+        raise ValueError(f"{what}: not found, expected in a library of cells")
+    return found.group(1)
+
+
+def area_of(cell: str, what: str) -> float:
+    return float(one_word(r"\barea\s*:\s*\"?([\d.eE+-]+)", cell, f"area of {what}"))
+
+
+def ran(words: Sequence[str]) -> str:
+    """What a tool says. Raises ValueError where it is not installed, Failure when it fails."""
+    if not shutil.which(words[0]):
+        raise ValueError(f"{words[0]}: not installed; scripts/tools.sh verilog does it")
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    if done.returncode:
+        said = (done.stderr or done.stdout).strip().splitlines()
+        raise Failure(f"{words[0]}: {said[-1] if said else 'failed'}")
+    return done.stdout
+
+
+def inverters(count: int, name: str, pin: str, out: str) -> str:
+    """A chain of inverters that drive four each."""
+    body, outputs = [], ["y"]
+    for i in range(count):
+        taken, given = f"n{i - 1}" if i else "a", f"n{i}" if i < count - 1 else "y"
+        body.append(f"  {name} g{i} ( .{pin}({taken}), .{out}({given}) );")
+        for k in range(3 if i < count - 1 else 0):
+            outputs.append(f"d{i}_{k}")
+            body.append(f"  {name} l{i}_{k} ( .{pin}({given}), .{out}(d{i}_{k}) );")
+    wires = ", ".join(f"n{i}" for i in range(count - 1))
+    head = f"module chain ( a, {', '.join(outputs)} );\n  input a;\n"
+    return (
+        f"{head}  output {', '.join(outputs)};\n  wire {wires};\n"
+        + "\n".join(body)
+        + "\nendmodule\n"
+    )
+
+
+def fo4_ps(cells: pathlib.Path, folder: pathlib.Path, inverter: str, cell: str) -> float:
+    """By the timing that paths are measured with: of ten inverters more in a chain, one."""
+    pins = {
+        one_word(r'direction\s*:\s*"?(\w+)', body, f"direction of {inverter}"): name
+        for name, body in re.findall(
+            r'\bpin\s*\(\s*"?(\w+)"?\s*\)\s*\{(.*?direction\s*:\s*"?\w+)', cell, re.DOTALL
+        )
+    }
+    delays = []
+    for count in (10, 20):
+        chain = folder / f"chain_{count}.v"
+        chain.write_text(inverters(count, inverter, pins["input"], pins["output"]))
+        said = ran(["yosys-abc", "-q", f"read_lib {cells}; read_verilog -m {chain}; topo; stime"])
+        delays.append(float(one_word(DELAY.pattern, said, f"delay of {chain.name}")))
+    return (delays[1] - delays[0]) / 10
+
+
+def read_library(path: pathlib.Path, folder: pathlib.Path) -> Library:
+    """Raises ValueError for what is none, Failure, OSError."""
+    text = gzip.decompress(path.read_bytes()).decode() if path.suffix == ".gz" else path.read_text()
+    found = {name: text[begin:end] for name, begin, end in cells_of(text)}
+    for name, begin, end in reversed(list(cells_of(text))):
+        if NOT_MAPPED.search(name):
+            text = text[:begin] + text[end:]
+    name = path.name.partition(".")[0]
+    cells = folder / f"{name}.lib"
+    cells.write_text(text)
+
+    def smallest(pattern: str, what: str, group: str = "") -> str:
+        known = [n for n in found if re.search(pattern, n) and re.search(group, found[n])]
+        if not known:
+            raise ValueError(f"{path}: no {what}, expected a library of cells")
+        return min(
+            (n for n in known if not NOT_MAPPED.search(n)), key=lambda n: area_of(found[n], n)
+        )
+
+    nand2 = smallest(r"(?i)(^|_)nand2_?x?\d+$", "NAND2")
+    inverter = smallest(r"(?i)(^|_)inv_?x?1$", "inverter")
+    register = smallest(r"(?i)(^|_)df", "flip-flop", r"\bff\s*\(")
+    return Library(
+        name,
+        cells,
+        area_of(found[nand2], nand2),
+        area_of(found[register], register),
+        fo4_ps(cells, folder, inverter, found[inverter]),
+        float(one_word(r"\bnom_voltage\s*:\s*\"?([\d.]+)", text, f"voltage of {path}")),
+        {name: cell for name in found if (cell := cell_of(found[name]))},
+        register_of(found[register]),
+    )
+
+
+def random_word(bits: int) -> int:
+    """A number not far from 1 in single or half precision, else any bits."""
+    word = random.getrandbits(bits)
+    if bits == 32:
+        return word & 0x807FFFFF | random.randint(120, 134) << 23
+    return word & 0x83FF | random.randint(11, 19) << 10 if bits == 16 else word
+
+
+def switched(library: Library, modules: dict) -> tuple[float, float]:
+    """pJ a cycle of random operands, settled and with glitches; lanes round their products."""
+    (module,) = (each for each in modules.values() if each["cells"])
+    netlist = netlist_of(module, library.cells, library.register)
+    random.seed(1)
+    inputs: dict[Bit, int] = {}
+    for name, port in module["ports"].items():
+        if port["direction"] == "input":
+            held = name in ("clock", "unrounded")
+            words = [0 if held else random_word(len(port["bits"])) for _ in range(CYCLES)]
+            for at, bit in enumerate(port["bits"]):
+                inputs[bit] = sum((word >> at & 1) << cycle for cycle, word in enumerate(words))
+    values = netlist.values(inputs, CYCLES)
+    settled, glitching = (
+        netlist.pj_a_cycle(netlist.changes(values, CYCLES, glitches), CYCLES, library.volts)
+        for glitches in (False, True)
+    )
+    return settled, glitching

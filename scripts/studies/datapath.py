@@ -1,37 +1,136 @@
-"""Gates of the datapaths in Verilog: Yosys and ABC map each module to the cells of open libraries,
-once as small and once as fast as they can, and random operands go through its gates. Makes
-
-  synthesis       a line for each library and module
-  synthesis_32nm  of each module what all libraries say, scaled to 32 nm, beside what is charged
-
-Libraries: Debian's osu018, and those in the folder liberty of ../shared or $SGS_SHARED. There are
-no wires, no layout and no clock tree in it.
-"""
+"""Studies of datapaths: numerical error of each formula, and gates of the Verilog."""
 
 from __future__ import annotations
 
 import argparse
 import dataclasses
-import gzip
 import itertools
 import json
+import math
 import pathlib
-import random
 import re
-import shutil
 import statistics
-import subprocess
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 import tables
-from tables import Column, Made
 from runs import run_arguments
-from runs.scenes import REPOSITORY, shared_folder
-from runs.simulations import Failure
-from studies import switching
+from runs.scenes import BINARY, REPOSITORY, Failure, answered, program_provenance, shared_folder
+from studies.gates import DELAY, NODE_NM, Library, ran, read_library, switched
+from tables import Column, Study
 
-JOBS = ("results.py synthesis",)
+STABILITY = BINARY.with_name("stability")
+
+KINDS = (
+    Column("formula", "what is computed of a Gaussian"),
+    Column("form", "how it is written"),
+    Column("in", "arithmetic"),
+)
+STABILITY_COLUMNS = (
+    *KINDS,
+    Column("over", "axis of the sweep, from its first place to its last"),
+    Column("largest error", "of the places before it breaks", "as in the next column", ".1e"),
+    Column("error of", "what the error is relative to or measured in"),
+    Column("proven at most", "bound of that error; empty: nothing is proven", "", ".1e"),
+    Column("by analysis", "law that the error follows"),
+    Column("breaks at", "place from which on it is wrong altogether"),
+    Column("what breaks, why, what to do", "in words"),
+)
+PLACE_COLUMNS = (
+    *KINDS,
+    Column("axis", "what makes it hard"),
+    Column("unit", "of the error"),
+    Column("place", "on the axis"),
+    Column("error", "largest of the samples"),
+    Column("bound", "that is proven"),
+    Column("error over bound", "largest of the samples"),
+    Column("law", "what the analysis says"),
+)
+
+
+def place_text(place: float) -> str:
+    """A power of ten as such."""
+    power = round(math.log10(place)) if place > 0 else 0
+    if place > 0 and (power > 3 or power < -2) and math.isclose(place, 10.0**power):
+        return f"10^{power}"
+    return f"{place:.4g}"
+
+
+def before_it_breaks(study: dict) -> Sequence[dict]:
+    """The places of a sweep at which it is whole; the first where it never is."""
+    places = study["places"]
+    whole = [p["place"] for p in places].index(study["breaks_at"]) if broken(study) else len(places)
+    return places[: max(whole, 1)]
+
+
+def broken(study: dict) -> bool:
+    return study["breaks_at"] is not None
+
+
+def kind(study: dict) -> tuple:
+    return (study["formula"], study["form"], study["arithmetic"])
+
+
+def stability_row(study: dict) -> tuple:
+    worst = max(before_it_breaks(study), key=lambda place: place["error"] or 0)
+    first, last = study["places"][0]["place"], study["places"][-1]["place"]
+    return (
+        *kind(study),
+        f"{study['axis']} {place_text(first)} .. {place_text(last)}",
+        worst["error"],
+        study["unit"],
+        worst["bound"],
+        study["law"],
+        place_text(study["breaks_at"]) if broken(study) else "nowhere",
+        study["why"],
+    )
+
+
+def place_rows(study: dict) -> list[tuple]:
+    measured = ("place", "error", "bound", "error_over_bound", "law")
+    return [
+        (*kind(study), study["axis"], study["unit"], *(place[key] for key in measured))
+        for place in study["places"]
+    ]
+
+
+def measured_stability(program: pathlib.Path, samples: int, seed: int) -> list[dict]:
+    """Its studies. Raises ValueError when the program refuses or is another one, Failure
+    when it fails."""
+    out = answered(program, f"--samples={samples}", ["--seed", str(seed)], program.name)
+    try:
+        return json.loads(out)["studies"]
+    except (ValueError, KeyError, TypeError) as error:
+        raise ValueError(f"{program}: got no studies, expected those of `stability`") from error
+
+
+def add_stability_arguments(to: run_arguments.Parser) -> None:
+    to.add_argument(
+        "--stability", type=pathlib.Path, default=STABILITY, metavar="PROGRAM", help="that measures"
+    )
+    to.add_argument("--samples", type=int, default=300, help="random cases at each place")
+    to.add_argument("--seed", type=int, default=1, help="of the random cases")
+
+
+def make_stability_table(arguments: argparse.Namespace) -> None:
+    studies = measured_stability(arguments.stability, arguments.samples, arguments.seed)
+    by = tables.made(arguments.stability, [program_provenance(arguments.stability)])
+    tables.write(arguments.out, "stability", by, STABILITY_COLUMNS, map(stability_row, studies))
+    rows = [row for study in studies for row in place_rows(study)]
+    tables.save(arguments.out, "stability_places", by, PLACE_COLUMNS, rows)
+
+
+STABILITY_TABLE = Study(
+    "stability_table",
+    """How far off every formula of one Gaussian is in float and in half, as the units compute it, beside
+100 decimal digits: the program `stability` measured, each row swept along what makes it hard. Makes stability, a line a sweep, and stability_places, with
+every place of every sweep.
+""",
+    ("results.py stability_table",),
+    add_stability_arguments,
+    make_stability_table,
+)
+
 
 VERILOG = REPOSITORY / "modules" / "datapath" / "rtl"
 TECHNOLOGY = REPOSITORY / "testbench" / "cost" / "technology_32nm.json"
@@ -40,20 +139,11 @@ OSU018 = pathlib.Path("/usr/share/qflow/tech/osu018/osu018_stdcells.lib")
 # Delay of an inverter that drives four of itself, ps for each nm that gates are long: typical, and
 # at low voltage and high temperature (Ho, Mai, Horowitz, "The Future of Wires", Proc. IEEE 2001).
 FO4_PS_NM = (0.36, 0.5)
-NODE_NM = 32
 # A register's own delay and set-up, FO4 (medium confidence).
 REGISTER_FO4 = 5
 # NAND2_X1 of NanGate's open library at 45 nm. The part of the area that cells fill is the ledger's.
 NAND2_UM2 = 0.798 * (NODE_NM / 45) ** 2
 FILLED = {"low": 1.0, "middle": 0.75, "high": 0.65}
-
-# Energy goes with the gates' length and the square of the voltage.
-NODE_VOLTS = 0.9
-NODES_NM = {"osu018": 180, "sg13g2": 130, "sky130": 130, "nangate45": 45}
-CYCLES = 1000  # of random operands
-
-# Cells that a mapper is not to choose: for power domains, clocks, delays, scan and layout.
-NOT_MAPPED = re.compile(r"lpflow|clk|dly|probe|sighold|antenna|decap|fill|spare|l?gcp|_s?edf|_sdf")
 # Mappers' scripts. The large one of Yosys saves area; the other one time, then area that is left.
 SMALL = (
     "strash; ifraig; scorr; dc2; dretime; strash; &get -n; &nf; &put; buffer -c; topo; upsize; "
@@ -61,7 +151,6 @@ SMALL = (
 )
 FAST = "strash; ifraig; scorr; dch -f; map -B 0.9; topo; buffer -c; topo; upsize; dnsize; stime"
 MAPPINGS = {"small": SMALL, "fast": FAST}
-DELAY = re.compile(r"Delay = *([\d.]+) ps")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -108,7 +197,7 @@ MODULES = (
 )
 
 MODULE = Column("module", "in modules/datapath/rtl")
-COLUMNS = (
+SYNTHESIS_COLUMNS = (
     Column("library", "file of its cells"),
     MODULE,
     Column("mapped", "to be small or to be fast"),
@@ -138,7 +227,7 @@ NODE_COLUMNS = (
     Column("pJ, with glitches, most", "likewise", "pJ", ".3g"),
     *(Column(f"charged pJ, {of}", "at 32 nm", "pJ", ".3g") for of in CHARGED),
 )
-ABOUT = (
+NODE_ABOUT = (
     "Area at 32 nm: NAND2 equivalents by 0.40 um2, a NAND2 of NanGate's 45 nm library x (32/45)^2. "
     "Low: the least number, cells alone. High: the most, at 65 % of the area they stand in. "
     "Middle: the geometric mean of all, at 75 %. "
@@ -146,27 +235,6 @@ ABOUT = (
     "Energy: the library's x 32 nm over its gates' length x the square of 0.9 V over its voltage. "
     "Operands are new and random in every cycle. No wires, no layout, no clock."
 )
-
-
-@dataclasses.dataclass(frozen=True)
-class Library:
-    """path: its cells without those that are not to be mapped."""
-
-    name: str
-    path: pathlib.Path
-    nand2_um2: float
-    register_um2: float
-    fo4_ps: float
-    volts: float
-    cells: dict[str, switching.Cell]
-    register: switching.Cell
-
-    def at_node(self, pj: float) -> float:
-        """At 32 nm. Raises ValueError where the library's node is not known."""
-        for part, nm in NODES_NM.items():
-            if part in self.name.lower():
-                return pj * NODE_NM / nm * (NODE_VOLTS / self.volts) ** 2
-        raise ValueError(f"{self.name}: node unknown, expected one of {', '.join(NODES_NM)}")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -186,109 +254,6 @@ class Mapped:
     def row(self) -> tuple:
         sizes = (self.nand2, self.register_bits, self.fo4, self.um2)
         return (self.library, self.module.name, self.mapping, *sizes, *self.pj)
-
-
-def cells_of(liberty: str) -> Iterator[tuple[str, int, int]]:
-    """Name, beginning and end of each cell's group."""
-    for head in re.finditer(r'^[ \t]*cell\s*\(\s*"?(\w+)"?\s*\)\s*\{', liberty, re.MULTILINE):
-        depth, end = 1, head.end()
-        for brace in re.compile(r"[{}]").finditer(liberty, head.end()):
-            depth += 1 if brace.group() == "{" else -1
-            if depth == 0:
-                end = brace.end()
-                break
-        yield head.group(1), head.start(), end
-
-
-def one_word(pattern: str, text: str, what: str) -> str:
-    found = re.search(pattern, text)
-    if not found:
-        raise ValueError(f"{what}: not found, expected in a library of cells")
-    return found.group(1)
-
-
-def area_of(cell: str, what: str) -> float:
-    return float(one_word(r"\barea\s*:\s*\"?([\d.eE+-]+)", cell, f"area of {what}"))
-
-
-def ran(words: Sequence[str]) -> str:
-    """What a tool says. Raises ValueError where it is not installed, Failure when it fails."""
-    if not shutil.which(words[0]):
-        raise ValueError(f"{words[0]}: not installed; scripts/tools.sh verilog does it")
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
-    if done.returncode:
-        said = (done.stderr or done.stdout).strip().splitlines()
-        raise Failure(f"{words[0]}: {said[-1] if said else 'failed'}")
-    return done.stdout
-
-
-def inverters(count: int, name: str, pin: str, out: str) -> str:
-    """A chain of inverters that drive four each."""
-    body, outputs = [], ["y"]
-    for i in range(count):
-        taken, given = f"n{i - 1}" if i else "a", f"n{i}" if i < count - 1 else "y"
-        body.append(f"  {name} g{i} ( .{pin}({taken}), .{out}({given}) );")
-        for k in range(3 if i < count - 1 else 0):
-            outputs.append(f"d{i}_{k}")
-            body.append(f"  {name} l{i}_{k} ( .{pin}({given}), .{out}(d{i}_{k}) );")
-    wires = ", ".join(f"n{i}" for i in range(count - 1))
-    head = f"module chain ( a, {', '.join(outputs)} );\n  input a;\n"
-    return (
-        f"{head}  output {', '.join(outputs)};\n  wire {wires};\n"
-        + "\n".join(body)
-        + "\nendmodule\n"
-    )
-
-
-def fo4_ps(cells: pathlib.Path, folder: pathlib.Path, inverter: str, cell: str) -> float:
-    """By the timing that paths are measured with: of ten inverters more in a chain, one."""
-    pins = {
-        one_word(r'direction\s*:\s*"?(\w+)', body, f"direction of {inverter}"): name
-        for name, body in re.findall(
-            r'\bpin\s*\(\s*"?(\w+)"?\s*\)\s*\{(.*?direction\s*:\s*"?\w+)', cell, re.DOTALL
-        )
-    }
-    delays = []
-    for count in (10, 20):
-        chain = folder / f"chain_{count}.v"
-        chain.write_text(inverters(count, inverter, pins["input"], pins["output"]))
-        said = ran(["yosys-abc", "-q", f"read_lib {cells}; read_verilog -m {chain}; topo; stime"])
-        delays.append(float(one_word(DELAY.pattern, said, f"delay of {chain.name}")))
-    return (delays[1] - delays[0]) / 10
-
-
-def read_library(path: pathlib.Path, folder: pathlib.Path) -> Library:
-    """Raises ValueError for what is none, Failure, OSError."""
-    text = gzip.decompress(path.read_bytes()).decode() if path.suffix == ".gz" else path.read_text()
-    found = {name: text[begin:end] for name, begin, end in cells_of(text)}
-    for name, begin, end in reversed(list(cells_of(text))):
-        if NOT_MAPPED.search(name):
-            text = text[:begin] + text[end:]
-    name = path.name.partition(".")[0]
-    cells = folder / f"{name}.lib"
-    cells.write_text(text)
-
-    def smallest(pattern: str, what: str, group: str = "") -> str:
-        known = [n for n in found if re.search(pattern, n) and re.search(group, found[n])]
-        if not known:
-            raise ValueError(f"{path}: no {what}, expected a library of cells")
-        return min(
-            (n for n in known if not NOT_MAPPED.search(n)), key=lambda n: area_of(found[n], n)
-        )
-
-    nand2 = smallest(r"(?i)(^|_)nand2_?x?\d+$", "NAND2")
-    inverter = smallest(r"(?i)(^|_)inv_?x?1$", "inverter")
-    register = smallest(r"(?i)(^|_)df", "flip-flop", r"\bff\s*\(")
-    return Library(
-        name,
-        cells,
-        area_of(found[nand2], nand2),
-        area_of(found[register], register),
-        fo4_ps(cells, folder, inverter, found[inverter]),
-        float(one_word(r"\bnom_voltage\s*:\s*\"?([\d.]+)", text, f"voltage of {path}")),
-        {name: cell for name in found if (cell := switching.cell_of(found[name]))},
-        switching.register_of(found[register]),
-    )
 
 
 def in_gates(module: Module, folder: pathlib.Path) -> pathlib.Path:
@@ -332,34 +297,6 @@ def mapped_to(
     )
 
 
-def random_word(bits: int) -> int:
-    """A number not far from 1 in single or half precision, else any bits."""
-    word = random.getrandbits(bits)
-    if bits == 32:
-        return word & 0x807FFFFF | random.randint(120, 134) << 23
-    return word & 0x83FF | random.randint(11, 19) << 10 if bits == 16 else word
-
-
-def switched(library: Library, modules: dict) -> tuple[float, float]:
-    """pJ a cycle of random operands, settled and with glitches; lanes round their products."""
-    (module,) = (each for each in modules.values() if each["cells"])
-    netlist = switching.netlist_of(module, library.cells, library.register)
-    random.seed(1)
-    inputs: dict[switching.Bit, int] = {}
-    for name, port in module["ports"].items():
-        if port["direction"] == "input":
-            held = name in ("clock", "unrounded")
-            words = [0 if held else random_word(len(port["bits"])) for _ in range(CYCLES)]
-            for at, bit in enumerate(port["bits"]):
-                inputs[bit] = sum((word >> at & 1) << cycle for cycle, word in enumerate(words))
-    values = netlist.values(inputs, CYCLES)
-    settled, glitching = (
-        netlist.pj_a_cycle(netlist.changes(values, CYCLES, glitches), CYCLES, library.volts)
-        for glitches in (False, True)
-    )
-    return settled, glitching
-
-
 def charged(module: Module, unit: str) -> list[float]:
     """mm2 or pj in the ledger: low, middle, high."""
     constant = json.loads(TECHNOLOGY.read_text())["parts"][module.charged][unit]
@@ -396,7 +333,7 @@ def default_libraries() -> list[pathlib.Path]:
     return ([OSU018] if OSU018.exists() else []) + found
 
 
-def add_arguments(to: run_arguments.Parser) -> None:
+def add_synthesis_arguments(to: run_arguments.Parser) -> None:
     to.add_argument(
         "libraries",
         nargs="*",
@@ -411,9 +348,10 @@ def add_arguments(to: run_arguments.Parser) -> None:
         default=[],
         help="tops; without: all",
     )
+    run_arguments.add_program(to)
 
 
-def make(arguments: argparse.Namespace) -> None:
+def make_synthesis(arguments: argparse.Namespace) -> None:
     paths = arguments.libraries or default_libraries()
     if not paths:
         raise ValueError("no library of cells; scripts/tools.sh verilog installs osu018")
@@ -427,13 +365,25 @@ def make(arguments: argparse.Namespace) -> None:
             libraries, logic.items(), MAPPINGS
         ):
             mapped.append(mapped_to(library, module, gates, mapping, folder))
-    by = Made(
-        run_arguments.command_line(),
-        (),
-        (),
-        tables.tree_digest(VERILOG),
-        {path.name: tables.tree_digest(path) for path in paths},
-    )
-    tables.write(arguments.out, "synthesis", by, COLUMNS, [each.row() for each in mapped])
+    program = arguments.streaminggs
+    by = tables.made(program, [program_provenance(program)], [VERILOG, *paths])
+    tables.write(arguments.out, "synthesis", by, SYNTHESIS_COLUMNS, [each.row() for each in mapped])
     rows = [node_row(module, [m for m in mapped if m.module == module]) for module in chosen]
-    tables.write(arguments.out, "synthesis_32nm", by, NODE_COLUMNS, rows, ABOUT)
+    tables.write(arguments.out, "synthesis_32nm", by, NODE_COLUMNS, rows, NODE_ABOUT)
+
+
+SYNTHESIS = Study(
+    "synthesis",
+    """Gates of the datapaths in Verilog: Yosys and ABC map each module to the cells of open libraries,
+once as small and once as fast as they can, and random operands go through its gates. Makes
+
+  synthesis       a line for each library and module
+  synthesis_32nm  of each module what all libraries say, scaled to 32 nm, beside what is charged
+
+Libraries: Debian's osu018, and those in the folder liberty of ../shared or $SGS_SHARED. There are
+no wires, no layout and no clock tree in it.
+""",
+    ("results.py synthesis",),
+    add_synthesis_arguments,
+    make_synthesis,
+)

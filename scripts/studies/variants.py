@@ -1,0 +1,342 @@
+"""Studies of what parts and sizes of a machine are worth, around its presets."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import itertools
+import sys
+from collections.abc import Callable, Sequence
+
+import tables
+from runs import run_arguments
+from runs.keeper import swept
+from runs.scenes import find_scenes
+from runs.simulations import (
+    MB,
+    MJ,
+    Run,
+    asked_mb,
+    binders,
+    bus_mb,
+    cycles,
+    decibels,
+    group_assignments,
+    joules,
+    mean,
+    mm2,
+    region_bytes,
+    resolved_config,
+    shape_of,
+    work,
+)
+from tables import PSNR, SCENE, VIEW, Column, Spread, Study
+
+VARIANTS = (
+    *("paper", "paper_no_vq", "paper_no_cgf", "paper_no_vq_cgf"),
+    *("exact", "exact_half", "exact_vq", "exact_vq_packed"),
+)
+
+Views = Sequence[dict]
+
+
+def dram_joules(view: dict) -> float:
+    return view["energy"]["dram_j"]
+
+
+# As the paper adds its features: quantisation first, without the coarse filter. StreamingGS, DAC
+# 2025: speed 45.7 with both, 22.2 without the coarse filter, times the GPU's; "VQ hardly changes
+# speed"; energy 62.9, 27.3 without the coarse filter, 21.5 without either.
+EFFECTS: tuple[tuple[str, str, str, Callable[[dict], float], str], ...] = (
+    ("cycles without / with VQ", "paper_no_vq", "paper", cycles, ""),
+    ("the same without coarse filter", "paper_no_vq_cgf", "paper_no_cgf", cycles, "about 1"),
+    ("cycles without / with coarse filter", "paper_no_cgf", "paper", cycles, "2.06"),
+    ("the same without VQ", "paper_no_vq_cgf", "paper_no_vq", cycles, ""),
+    (
+        *("energy without / with VQ, both without coarse filter", "paper_no_vq_cgf"),
+        *("paper_no_cgf", joules, "1.27"),
+    ),
+    ("of the DRAM, VQ", "paper_no_vq_cgf", "paper_no_cgf", dram_joules, ""),
+    ("energy without / with coarse filter", "paper_no_cgf", "paper", joules, "2.30"),
+    ("of the DRAM, coarse filter", "paper_no_cgf", "paper", dram_joules, ""),
+)
+EFFECT_COLUMNS = (
+    Column("effect", "what of which variants is compared"),
+    Column("StreamingGS", "what the paper states"),
+    SCENE,
+    Column("times", "means over the views, without over with", "", ".2f"),
+)
+VARIANT_COLUMNS = (
+    SCENE,
+    Column("variant", "preset: the paper's variants, then exact order by encoding"),
+    Column("group px", "side, or width and height, of a pixel group", "px"),
+    Column("first halves MB", "requested of positions and extents", "MB", ".2f"),
+    Column("second halves MB", "requested of all else of a Gaussian", "MB", ".2f"),
+    Column("all MB", "requested by units, both directions", "MB", ".2f"),
+    Column("all on the bus MB", "moved in whole bursts", "MB", ".2f"),
+    Column("M cycles", "of the frame", "10^6 cycles", ".2f"),
+    Column("mJ", "of the frame", "mJ", ".2f"),
+    Column("of it DRAM", "energy of the DRAM", "mJ", ".2f"),
+    Column("mm2", "area of the machine, the largest of the views", "mm2", ".2f"),
+    Column("encoding dB, least", "PSNR that the encoding alone leaves, worst view", "dB", ".1f"),
+    Column("encoding dB, most", "the same, best view that differs", "dB", ".1f"),
+    Column("binds", "busiest resource and its share; what holds the frame where it is another"),
+)
+
+
+def encoding_psnr(views: Views) -> tuple[float, float]:
+    """Least and most, of views that differ."""
+    values = [view["image"]["encoding_psnr_db"] for view in views]
+    finite = [value for value in values if value is not None] or [float("inf")]
+    return min(finite), max(finite)
+
+
+def variant_row(scene: str, variant: str, views: Views) -> tuple:
+    return (
+        scene,
+        variant,
+        shape_of(views[0]["config"]),
+        mean(views, lambda v: region_bytes(v, "first_halves")) / MB,
+        mean(views, lambda v: region_bytes(v, "second_halves")) / MB,
+        mean(views, asked_mb),
+        mean(views, bus_mb),
+        mean(views, cycles) / 1e6,
+        mean(views, joules) / MJ,
+        mean(views, dram_joules) / MJ,
+        max(map(mm2, views)),
+        *encoding_psnr(views),
+        binders(views),
+    )
+
+
+def effect_rows(scene: str, of: dict[str, Views]) -> list[tuple]:
+    return [
+        (effect, stated, scene, mean(of[without], value) / mean(of[with_it], value))
+        for effect, without, with_it, value, stated in EFFECTS
+    ]
+
+
+def add_variant_arguments(to: run_arguments.Parser) -> None:
+    run_arguments.add_scenes(to)
+    run_arguments.add_side_by_side(to)
+    run_arguments.add_view(to)
+    run_arguments.add_size(to, "640x360")
+    run_arguments.add_settings(to, "all presets")
+
+
+def make_compare_variants(arguments: argparse.Namespace) -> None:
+    scenes = find_scenes(arguments.scenes, arguments.cameras)
+    runs = [
+        Run(scene, arguments.view, arguments.size, variant, tuple(arguments.set))
+        for scene in scenes
+        for variant in VARIANTS
+    ]
+    views = [outcome.accepted() for outcome in swept(arguments, "compare_variants", runs)]
+    by_scene: dict[str, dict[str, Views]] = {}
+    for run, of_run in zip(runs, views):
+        by_scene.setdefault(run.scene.name, {})[run.config] = of_run
+    by = tables.made_of(arguments.streaminggs, (v for of_run in views for v in of_run), scenes)
+    rows = [
+        variant_row(scene, variant, v)
+        for scene, of in by_scene.items()
+        for variant, v in of.items()
+    ]
+    tables.write(arguments.out, "compare_variants", by, VARIANT_COLUMNS, rows)
+    effects = [line for scene, of in by_scene.items() for line in effect_rows(scene, of)]
+    spread = Spread("scene", "{times}")
+    tables.write(
+        arguments.out, "compare_variants_effects", by, EFFECT_COLUMNS, effects, spread=spread
+    )
+
+
+COMPARE_VARIANTS = Study(
+    "compare_variants",
+    """What vector quantisation and the coarse filter are worth: the paper's variants, and exact order
+with each encoding of second halves. All of means over the views of a scene. Makes
+
+  compare_variants          traffic, cycles, energy, area, quality, bottleneck
+  compare_variants_effects  cycles and energy without a feature over those with it, beside the
+                            factors that the paper states
+""",
+    ("results.py compare_variants truck playbot platform yard garden park",),
+    add_variant_arguments,
+    make_compare_variants,
+)
+
+
+# Stage: preset, and the keys that put it into half. Records of projected features and depth keys go
+# through memory in the tile-centric machine alone.
+HALF_STAGES = {
+    "second halves as stored": ("exact", "storage.encoding=half"),
+    "projected features": ("gscore_lossless", "tiles.features=fp16"),
+    "depth keys": ("gscore_lossless", "tiles.keys=fp16"),
+    "blending, where ellipses reach": ("exact", "rendering.precision=fp16"),
+    "blending, everywhere in boxes": ("gscore_lossless", "rendering.precision=fp16"),
+}
+HALF_COLUMNS = (SCENE, VIEW, Column("stage", "the one that computes or stores in half"), PSNR)
+
+
+def add_half_arguments(to: run_arguments.Parser) -> None:
+    run_arguments.add_scenes(to)
+    run_arguments.add_side_by_side(to)
+    run_arguments.add_view(to, "all")
+    run_arguments.add_size(to, "640x360")
+
+
+def make_half_by_stage(arguments: argparse.Namespace) -> None:
+    scenes = find_scenes(arguments.scenes, arguments.cameras)
+    runs = [
+        Run(
+            scene,
+            arguments.view,
+            arguments.size,
+            preset,
+            ("framebuffer=rgb32f", setting),
+            fit_memories=True,
+        )
+        for scene in scenes
+        for preset, setting in HALF_STAGES.values()
+    ]
+    outcomes = iter(swept(arguments, "half_by_stage", runs))
+    found = [
+        (scene, stage, view)
+        for scene in scenes
+        for stage in HALF_STAGES
+        for view in next(outcomes).accepted()
+    ]
+    by = tables.made_of(arguments.streaminggs, (view for _, _, view in found), scenes)
+    rows = [(scene.name, view["view"], stage, decibels(view)) for scene, stage, view in found]
+    spread = Spread("stage", "{PSNR dB}")
+    tables.write(arguments.out, "half_by_stage", by, HALF_COLUMNS, rows, spread=spread)
+
+
+HALF_BY_STAGE = Study(
+    "half_by_stage",
+    """What half precision costs the picture, one stage at a time: PSNR of each view against the
+reference picture with one stage in half and all else lossless. Frames are written as floats, so
+that nothing else is lost. Makes half_by_stage.
+""",
+    ("results.py half_by_stage truck platform yard park playbot garden --view 0",),
+    add_half_arguments,
+    make_half_by_stage,
+)
+
+
+MERGE_ENTRIES = (128, 256, 512, 1024, 2048, 4096)
+ON_OVERFLOW = ("spill", "blend_early")
+WORK_GROUPS = ("16", "32", "64", "128")
+CHUNK_GAUSSIANS = (8, 16, 32, 64, 128, 256)
+
+WORK_COLUMNS = (
+    SCENE,
+    VIEW,
+    Column("group px", "side, or width and height, of a pixel group", "px"),
+    Column("chunk", "storage.chunk_gaussians", "Gaussians"),
+    Column("merge entries", "merge.entries: keys that a list of a group has room for", "", ","),
+    Column("on overflow", "merge.on_overflow: what is done with the keys beyond"),
+    PSNR,
+    Column("DRAM MB", "requested by units, both directions", "MB", ".2f"),
+    Column("spill MB", "of them for keys that left the merge unit", "MB", ".2f"),
+    Column("forced early", "keys blended before all nearer ones were known", "keys", ","),
+    Column("k cycles", "of the frame", "1000 cycles", ",.0f"),
+    Column("shared SRAM B", "shared on-chip memory that the combination needs", "B", ","),
+    Column("simulation s", "wall time of the simulation", "s", ".2f"),
+)
+
+
+def combinations(preset: dict, cross: bool) -> list[tuple]:
+    """(group, chunk, entries, on_overflow). Without `cross` one axis is moved at a time, around
+    the preset, but for the merge buffer, whose size and overflow policy go together."""
+    if cross:
+        return list(itertools.product(WORK_GROUPS, CHUNK_GAUSSIANS, MERGE_ENTRIES, ON_OVERFLOW))
+    shape, chunk = shape_of(preset), preset["storage"]["chunk_gaussians"]
+    entries, on_overflow = preset["merge"]["entries"], preset["merge"]["on_overflow"]
+    points = [
+        (shape, chunk, n, policy) for policy, n in itertools.product(ON_OVERFLOW, MERGE_ENTRIES)
+    ]
+    points += [(group, chunk, entries, on_overflow) for group in WORK_GROUPS]
+    points += [(shape, c, entries, on_overflow) for c in CHUNK_GAUSSIANS]
+    return list(dict.fromkeys(points))
+
+
+def work_overrides(point: tuple, preset: dict) -> tuple[str, ...]:
+    shape, chunk, entries, on_overflow = point
+    chunks_waiting = preset["hfu"]["candidate_fifo_entries"] / preset["storage"]["chunk_gaussians"]
+    return (
+        *group_assignments(shape),
+        f"storage.chunk_gaussians={chunk}",
+        f"hfu.candidate_fifo_entries={max(1, round(chunks_waiting * chunk))}",
+        f"merge.entries={entries}",
+        f"merge.on_overflow={on_overflow}",
+        "framebuffer=rgb32f",
+    )
+
+
+def work_row(scene: str, view: dict) -> tuple:
+    config = view["config"]
+    return (
+        scene,
+        view["view"],
+        shape_of(config),
+        config["storage"]["chunk_gaussians"],
+        config["merge"]["entries"],
+        config["merge"]["on_overflow"],
+        decibels(view),
+        asked_mb(view),
+        region_bytes(view, "spill") / MB,
+        work(view, "forced_early"),
+        cycles(view) / 1e3,
+        config["sram"]["shared_bytes"],
+        view["host"]["simulation_wall_s"],
+    )
+
+
+def add_work_arguments(to: run_arguments.Parser) -> None:
+    run_arguments.add_scenes(to)
+    run_arguments.add_side_by_side(to)
+    run_arguments.add_view(to)
+    run_arguments.add_settings(to, "the exact preset")
+    to.add_argument("--cross", action="store_true", help="every combination: 240 a scene")
+
+
+def make_work_precision(arguments: argparse.Namespace) -> None:
+    scenes = find_scenes(arguments.scenes, arguments.cameras)
+    given = tuple(arguments.set)
+    base = Run(scenes[0], overrides=given, fit_memories=True)
+    preset = resolved_config(arguments.streaminggs, base)
+    runs = [
+        dataclasses.replace(
+            base,
+            scene=scene,
+            view=arguments.view,
+            overrides=(*given, *work_overrides(point, preset)),
+        )
+        for scene in scenes
+        for point in combinations(preset, arguments.cross)
+    ]
+    outcomes = swept(arguments, "work_precision", runs)
+    for outcome in outcomes:
+        if outcome.refused:
+            print(f"left out: {outcome.run.label()}: {outcome.refused}", file=sys.stderr)
+    found = [(outcome.run.scene.name, view) for outcome in outcomes for view in outcome.views]
+    if not found:
+        outcomes[0].accepted()
+    by = tables.made_of(arguments.streaminggs, (view for _, view in found), scenes)
+    rows = [work_row(scene, view) for scene, view in found]
+    tables.write(arguments.out, "work_precision", by, WORK_COLUMNS, rows)
+
+
+WORK_PRECISION = Study(
+    "work_precision",
+    """Error against run time of exact order: what a smaller merge buffer (spilling, or blending early),
+another pixel group or another chunk costs in quality, traffic and cycles. Makes work_precision.
+
+Frames are written as floats (framebuffer=rgb32f), so that PSNR sees every error; that is 12 B a
+pixel in DRAM. The coarse filters' FIFOs hold the survivors of as many whole chunks as in the
+preset: with less room a larger chunk would be measured by its wait. Every combination gets the
+shared on-chip memory that it needs; the column `shared SRAM B` says what that is.
+""",
+    ("results.py work_precision builtin:outdoor truck",),
+    add_work_arguments,
+    make_work_precision,
+)
