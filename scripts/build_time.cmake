@@ -65,41 +65,60 @@ if(NOT CMAKE_CXX_COMPILER_LAUNCHER MATCHES ccache)
   endif()
 endif()
 
-# Commands and tests read arguments, write reports and compare: the work is done in algorithm/, in
-# units and in the memory. Units that do not blend gain nothing by -O3 over -O2.
+# Commands read arguments, write reports and compare: the work is done in algorithm/, in units and in
+# the memory. Units that do not blend gain nothing by -O3 over -O2. What sanitizers watch there they
+# watch without optimisation as well, which builds in two thirds of the time.
 set(lightly)
 set(units)
 if(SYSTEMC_FOUND)
   sgs_targets_below(lightly "STATIC|EXECUTABLE" modules/config testbench/builtin
-    testbench/command_line testbench/cost testbench/process testbench/result testbench/streaminggs
-    testbench/timeline testbench/waveform)
+    testbench/command_line testbench/cost testbench/process testbench/result testbench/stability
+    testbench/streaminggs testbench/timeline testbench/waveform)
   sgs_targets_below(units STATIC tlm modules)
   list(REMOVE_ITEM units sgs_config sgs_gscore sgs_rendering)
   sgs_targets_below(benches EXECUTABLE testbench/dram testbench/units)
   list(APPEND lightly ${benches})
 endif()
-if(BUILD_TESTING)
-  sgs_targets_below(tests EXECUTABLE tests)
-  list(APPEND lightly ${tests} sgs_test_main)
-endif()
 foreach(target ${lightly})
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CONFIG:Sanitize>:-O0>)
 endforeach()
 foreach(target ${units})
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
 endforeach()
 
+# Tests hand work over and look at results: they are built faster than optimised. Not so those that
+# compute by themselves what they compare with.
+if(BUILD_TESTING)
+  sgs_targets_below(tests EXECUTABLE tests)
+  set(computing builtin_test datapath_rtl_test datapath_test dram_test fixed_point_sums_test
+    order_test render_test splat_test stability_test stiff_tuning_test storage_test train_test
+    tune_test voxel_test vq_test)
+  if(SYSTEMC_FOUND)
+    list(APPEND computing clocked_test gscore_clocked_test gscore_parts_test hostile_test
+      streaminggs_parts_test)
+  endif()
+  list(REMOVE_ITEM tests ${computing})
+  foreach(target ${tests} sgs_test_main)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release,Sanitize>:-O0>)
+  endforeach()
+  foreach(target ${computing})
+    if(TARGET ${target})
+      target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+    endif()
+  endforeach()
+endif()
+
 # UndefinedBehaviorSanitizer doubles what a file takes to compile. The product's libraries and
 # programs have it, for frames, tunings and files that tests hand to them; what only tests is left
-# with AddressSanitizer, and so is what it has inlined of the product's headers.
+# with AddressSanitizer, and so is what it has inlined of the product's headers. Catch has neither.
 set(testing)
 if(SYSTEMC_FOUND)
   sgs_targets_below(testing "STATIC|OBJECT|EXECUTABLE" testbench/stability testbench/units)
 endif()
 if(BUILD_TESTING)
   sgs_targets_below(tests "STATIC|OBJECT|EXECUTABLE" tests)
-  list(REMOVE_ITEM tests fuzz_command_seeds_test)  # it compiles readers of the product
   list(APPEND testing ${tests})
+  target_compile_options(sgs_test_main PRIVATE $<$<CONFIG:Sanitize>:-fno-sanitize=all>)
 endif()
 foreach(target ${testing})
   target_compile_options(${target} PRIVATE $<$<CONFIG:Sanitize>:-fno-sanitize=undefined>)
