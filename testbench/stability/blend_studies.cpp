@@ -6,8 +6,6 @@
 namespace sgs {
 namespace {
 
-constexpr double u = Single::kRoundoff, h = Half::kRoundoff;
-
 template <class T>
 Deviation alpha(double opacity, Random& random) {
   const T held = constant<T>(opacity);

@@ -59,7 +59,6 @@ Deviation pixel(double beyond_near, Random& random) {
 }  // namespace
 
 std::vector<Study> camera_studies() {
-  constexpr double u = Single::kRoundoff, h = Half::kRoundoff;
   std::vector<Study> out;
 
   Study s;

@@ -6,7 +6,6 @@
 namespace sgs {
 namespace {
 
-constexpr double u = Single::kRoundoff;
 constexpr int kDegree = 3, kCoeffs = 16;
 
 // Computed in double and rounded once, as activate() does for a file's floats.

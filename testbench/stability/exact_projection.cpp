@@ -61,10 +61,10 @@ ExactSplat exact_project(const ExactView& view, const ExactGaussian& g, const Ex
   const ExactMatrix sigma = product(m, transposed(m));
   const ExactMatrix in_camera =
       product(product(view.cam_from_world, sigma), transposed(view.cam_from_world));
-  const Exact u = clamped(v[0] / v[2], view.limit_x) * v[2];
-  const Exact w = clamped(v[1] / v[2], view.limit_y) * v[2];
-  const ExactVector jx{view.focal_x / v[2], 0, -view.focal_x * u / (v[2] * v[2])};
-  const ExactVector jy{0, view.focal_y / v[2], -view.focal_y * w / (v[2] * v[2])};
+  const Exact x = clamped(v[0] / v[2], view.limit_x) * v[2];
+  const Exact y = clamped(v[1] / v[2], view.limit_y) * v[2];
+  const ExactVector jx{view.focal_x / v[2], 0, -view.focal_x * x / (v[2] * v[2])};
+  const ExactVector jy{0, view.focal_y / v[2], -view.focal_y * y / (v[2] * v[2])};
   const auto between = [&](const ExactVector& left, const ExactVector& right) {
     return dot(left,
                {dot(in_camera[0], right), dot(in_camera[1], right), dot(in_camera[2], right)});

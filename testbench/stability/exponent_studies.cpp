@@ -9,7 +9,6 @@
 namespace sgs {
 namespace {
 
-constexpr double u = Single::kRoundoff, h = Half::kRoundoff;
 constexpr double kFrame = 1e5;  // px: no pixel lies farther from a centre and is computed
 
 // A pixel within the visible ellipse, relative to the centre, px; exact.

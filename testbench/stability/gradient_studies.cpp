@@ -8,9 +8,7 @@
 namespace sgs {
 namespace {
 
-constexpr double u = Single::kRoundoff;
-
-enum class Of { kMean, kScale, kQuat };
+enum class Input { kMean, kScale, kQuat };
 
 // x, y, cov_a, cov_b, cov_c.
 std::array<Exact, 5> outputs(const ExactView& view, const ExactGaussian& g, const ExactVector& v) {
@@ -21,7 +19,7 @@ std::array<Exact, 5> outputs(const ExactView& view, const ExactGaussian& g, cons
 // L = sum w output, the weights such that every output counts: differences with a step of 10^-40
 // of the parameter's kind. The unit: sum |w d output|, the largest of the kind.
 template <class T>
-Deviation slopes(const ProjectedCase& c, Random& random, Of of) {
+Deviation slopes(const ProjectedCase& c, Random& random, Input input) {
   const ExactView view = exact_view(c.camera);
   const ExactGaussian g = c.exact_gaussian();
   const ExactVector v = exact(c.v);
@@ -64,16 +62,16 @@ Deviation slopes(const ProjectedCase& c, Random& random, Of of) {
   const Exact tiny("1e-40");
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const int k = static_cast<int>(axis);
-    if (of == Of::kMean) {
+    if (input == Input::kMean) {
       differ(computed.mean[k], v[2] * tiny, [&](ExactGaussian&, ExactVector& at, const Exact& by) {
         for (std::size_t row = 0; row < 3; ++row) at[row] += view.cam_from_world[row][axis] * by;
       });
-    } else if (of == Of::kScale) {
+    } else if (input == Input::kScale) {
       differ(computed.scale[k], g.scale[axis] * tiny,
              [&](ExactGaussian& at, ExactVector&, const Exact& by) { at.scale[axis] += by; });
     }
   }
-  for (std::size_t k = 0; of == Of::kQuat && k < 4; ++k) {
+  for (std::size_t k = 0; input == Input::kQuat && k < 4; ++k) {
     differ(computed.quat[k], tiny,
            [&](ExactGaussian& at, ExactVector&, const Exact& by) { at.quat[k] += by; });
   }
@@ -82,13 +80,13 @@ Deviation slopes(const ProjectedCase& c, Random& random, Of of) {
   Deviation worst;
   for (std::size_t i = 0; i < values.size(); ++i) {
     // Cov2D is quadratic in the scales: a thin axis' slope is as thin.
-    const Exact unit = of == Of::kScale ? Exact(largest * g.scale[i] / longest) : largest;
+    const Exact unit = input == Input::kScale ? Exact(largest * g.scale[i] / longest) : largest;
     worst.add(deviation(values[i], truths[i], unit));
   }
   return worst;
 }
 
-Study along_condition(Of of, const char* formula) {
+Study along_condition(Input input, const char* formula) {
   Study s;
   s.formula = formula;
   s.form = "back through u1, u2";
@@ -96,8 +94,8 @@ Study along_condition(Of of, const char* formula) {
   s.axis = "condition";
   s.unit = "of sum |w d output|";
   s.places = decades(0, 20);
-  s.sample = [of](double place, Random& r) {
-    return slopes<BoundedFloat>(long_splat(place, r), r, of);
+  s.sample = [input](double place, Random& r) {
+    return slopes<BoundedFloat>(long_splat(place, r), r, input);
   };
   return s;
 }
@@ -106,7 +104,7 @@ Study along_condition(Of of, const char* formula) {
 
 std::vector<Study> gradient_studies() {
   std::vector<Study> out;
-  Study s = along_condition(Of::kMean, "derivative of the projection by p");
+  Study s = along_condition(Input::kMean, "derivative of the projection by p");
   s.law = [](double) { return 256 * u; };
   s.law_text = "256 u";
   s.why = "Does not break: Cov2D is differentiated, not its inverse.";
@@ -114,16 +112,16 @@ std::vector<Study> gradient_studies() {
   s.axis = "distance from the near plane";
   s.places = decades(-6, 6);
   s.sample = [](double place, Random& r) {
-    return slopes<BoundedFloat>(near_plane(place, r), r, Of::kMean);
+    return slopes<BoundedFloat>(near_plane(place, r), r, Input::kMean);
   };
   s.why = "Does not break: 1 / v_z is at most 5.";
   out.push_back(s);
-  s = along_condition(Of::kScale, "derivative of the projection by scale");
+  s = along_condition(Input::kScale, "derivative of the projection by scale");
   s.law = [](double) { return 256 * u; };
   s.law_text = "256 u";
   s.why = "Does not break: thin axes have digits of their own.";
   out.push_back(s);
-  s = along_condition(Of::kQuat, "derivative of the projection by q");
+  s = along_condition(Input::kQuat, "derivative of the projection by q");
   s.law = [](double) { return 256 * u; };
   s.law_text = "256 u";
   s.why = "Does not break; each component by itself, the part along q is taken away afterwards.";

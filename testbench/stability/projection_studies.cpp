@@ -6,8 +6,6 @@
 namespace sgs {
 namespace {
 
-constexpr double u = Single::kRoundoff;
-
 using Case = ProjectedCase (*)(double, Random&);
 
 // compute(Projected<T>) against truth(ExactSplat), of unit(ExactSplat).

@@ -11,6 +11,7 @@
 
 namespace sgs {
 
+constexpr double u = Single::kRoundoff, h = Half::kRoundoff;  // as laws name them
 constexpr double kBroken = 1e-2;  // an error above it, or no number at all: it breaks here
 
 // How far off a computation is and was proven to be at most, in units of its study.

@@ -360,8 +360,7 @@ TEST_CASE("bad input: out of memory is said in one line, and over what") {
   const std::string limit = "ulimit -v 300000; ";
   const std::string large = "'builtin:object?n=2000000'";
   for (const std::string& line :
-       {"$SG info " + large, "$SG render " + large + " --out a.png",
-        "$SG pack " + large + " --out a.sgs", "$SG simulate " + large + " --out o"}) {
+       {"$SG render " + large + " --out a.png", "$SG simulate " + large + " --out o"}) {
     check({limit + line, 1, {"out of memory while reading builtin:object?n=2000000"}});
   }
   check({limit + "$SG info a.ply",

@@ -13,7 +13,6 @@
 #include "algorithm/voxel/chunk_test.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "tests/algorithm/voxel/stored_clouds.h"
-#include "tests/support/shared_inputs.h"
 #include "tests/system/exact_order_checks.h"
 #include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"
@@ -312,14 +311,6 @@ TEST_CASE("exact frames: what the report holds") {
   CHECK(view["limit"]["bytes_read_once"] == once);
   CHECK(view["limit"]["ratio"].get<double>() ==
         Approx(view["dram"]["bytes"].get<double>() / static_cast<double>(once)));
-}
-
-TEST_CASE("exact frames: truck and playbot") {
-  for (const std::string name : {"truck", "playbot"}) {
-    Simulation({shared_scene(name), "--cameras", shared_path("cameras/" + name + ".json"), "--view",
-                "all"})
-        .check();
-  }
 }
 
 }  // namespace

@@ -114,6 +114,7 @@ void needles(Draft& d) {
     const double longest = d.log_uniform(0.1, 100), thin = longest / d.log_uniform(1e3, 1e10);
     d.add(d.normal3(), {longest, thin, d.pick(2) == 0 ? thin : longest}, 0.7);
   }
+  d.cloud().log_scales[0] = {16.118F, -3e38F, -3e38F};  // the limits
 }
 
 void opacities(Draft& d) {
@@ -123,6 +124,7 @@ void opacities(Draft& d) {
                              logit(0.99)};
     d.cloud().opacity_logits[i] = choices[d.pick(5)];
   }
+  d.cloud().opacity_logits[0] = 3e38F;  // the limit
 }
 
 void long_quaternions(Draft& d) {
@@ -131,6 +133,8 @@ void long_quaternions(Draft& d) {
     const double length = d.log_uniform(1e-30, 1e30);
     for (float& component : quat) component = static_cast<float>(component * length);
   }
+  d.cloud().quats[0] = {1e-38F, 2e-38F, 0, 0};  // the limits
+  d.cloud().quats[1] = {3e38F, 3e38F, -3e38F, 3e38F};
 }
 
 void at_the_camera(Draft& d) {

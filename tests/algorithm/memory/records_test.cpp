@@ -5,16 +5,12 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include "algorithm/memory/splat_record.h"
-#include "tests/support/uniform.h"
 
 namespace sgs {
 namespace {
-
-using test::uniform;
 
 template <class T>
 bool same_bits(const T& a, const T& b) {
@@ -34,34 +30,6 @@ void check_round_trip(const Gaussian<float>& g, const std::vector<glm::vec3>& sh
   CHECK(same_bits(back.gaussian.quat, g.quat));
   CHECK(same_bits(back.gaussian.opacity, g.opacity));
   CHECK(std::memcmp(back.sh, sh.data(), sh.size() * sizeof(glm::vec3)) == 0);
-}
-
-TEST_CASE("records: sizes of a raw second half") {
-  CHECK(raw_second_half_bytes(0) == 40);
-  CHECK(raw_second_half_bytes(1) == 76);
-  CHECK(raw_second_half_bytes(2) == 136);
-  CHECK(raw_second_half_bytes(3) == 220);
-  CHECK(raw_second_half_bytes(3) == kMaxSecondHalfBytes);
-}
-
-TEST_CASE("records: random Gaussians of every degree come back to the bit") {
-  std::mt19937 random(1);
-  for (int degree = 0; degree <= 3; ++degree) {
-    for (int i = 0; i < 500; ++i) {
-      Gaussian<float> g{};
-      std::vector<glm::vec3> sh(static_cast<std::size_t>((degree + 1) * (degree + 1)));
-      for (int k = 0; k < 3; ++k) {
-        g.mean[k] = uniform(random, -1e6F, 1e6F);
-        g.scale[k] = std::exp(uniform(random, -20, 10));
-      }
-      for (float& component : g.quat) component = uniform(random, -1, 1);
-      g.opacity = uniform(random, 0, 1);
-      for (glm::vec3& coeff : sh) {
-        for (int k = 0; k < 3; ++k) coeff[k] = uniform(random, -3, 3);
-      }
-      check_round_trip(g, sh, degree);
-    }
-  }
 }
 
 TEST_CASE("records: the largest scale along each axis, equal scales, scales of nought") {

@@ -191,26 +191,6 @@ TEST_CASE("half: extremes are the nearest that sixteen bits hold") {
   CHECK(back.sh[0] == glm::vec3(65504, -65504, 0));
 }
 
-TEST_CASE("half: the largest scale along each axis, equal scales, scales of nought") {
-  const glm::vec3 sh(0.0F);
-  for (const glm::vec3& scale : {glm::vec3{4, 1, 2},
-                                 {1, 4, 2},
-                                 {1, 2, 4},
-                                 {2, 2, 2},
-                                 {1, 2, 2},
-                                 {2, 1, 2},
-                                 {2, 2, 1},
-                                 {0, 0, 0},
-                                 {0, 1, 0},
-                                 {0, 0, 1},
-                                 {1, 0, 0},
-                                 {3e38F, 0, 3e38F}}) {
-    INFO(scale.x << " " << scale.y << " " << scale.z);
-    const DecodedGaussian back = through_half({{1, 2, 3}, scale, {1, 0, 0, 0}, 0.5F}, &sh, 0);
-    CHECK(back.gaussian.scale == scale);
-  }
-}
-
 // Codebooks of random entries in the shape that quantise() makes.
 std::vector<float> random_codebooks(std::mt19937_64& random, const SecondHalfFormat& format) {
   std::vector<float> words;

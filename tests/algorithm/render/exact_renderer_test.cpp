@@ -78,23 +78,6 @@ TEST_CASE("exact order equals the reference: SH degrees 0 to 3, odd frames, ever
   }
 }
 
-TEST_CASE("exact order equals the reference: equal depths across many chunks") {
-  // 3,000 Gaussians at two depths; neighbours in the file lie far apart, so in different chunks.
-  GaussianCloud cloud;
-  for (int i = 0; i < 3000; ++i) {
-    const float x = static_cast<float>(i * 37 % 101) * 0.02F - 1;
-    const float y = static_cast<float>(i * 53 % 97) * 0.02F - 1;
-    test::add_ball(cloud, {x, y, i % 2 == 0 ? 2.0F : 2.5F}, 0.1, 0.3,
-                   {static_cast<float>(i % 5) / 4, static_cast<float>(i % 7) / 6, 0.5F});
-  }
-  const Ready ready = cloud_before_camera(cloud, 120, 90);
-  for (const std::uint32_t chunk : {1U, 16U, 256U}) {
-    const auto stored = test::by_chunks(ready.cloud, chunk);
-    CHECK(difference_from_reference(ready.view, stored.cloud, stored.table,
-                                    with_group(square_of(32))) == "");
-  }
-}
-
 TEST_CASE("exact order equals the reference: extreme clouds") {
   std::vector<GaussianCloud> clouds;
   clouds.emplace_back();  // empty
@@ -126,17 +109,6 @@ TEST_CASE("exact order equals the reference: extreme clouds") {
     CHECK(difference_from_reference(ready.view, stored.cloud, stored.table,
                                     with_group(square_of(32))) == "");
   }
-}
-
-TEST_CASE("exact order equals the reference: coordinates of 10^6") {
-  const glm::vec3 centre(1e6F, -1e6F, 1e6F);
-  Camera camera = test::forward_camera(160, 90, 200);
-  camera.position = {1e6 + 0.01237, -1e6 - 0.03411, 1e6 - 1.50173};
-  const auto [cloud, tree] =
-      test::by_chunks(activate(test::random_cloud(11, 3000, 2, centre, 1, 1e-3F, 0.05F)), 16);
-  const View<float> view = make_view<float>(camera);
-
-  CHECK(difference_from_reference(view, cloud, tree, with_group(square_of(16))) == "");
 }
 
 TEST_CASE("exact order equals the reference: chunks that only the slack of their test keeps") {

@@ -31,15 +31,6 @@ TEST_CASE("exp2_of float: powers of two are exact, tiny below the table, no numb
   CHECK(std::isnan(exp2_of(std::numeric_limits<float>::quiet_NaN())));
 }
 
-TEST_CASE("exp2_of float never falls where its argument rises by a thousandth") {
-  float last = exp2_of(-20.0F);
-  for (int i = 1; i <= 20000; ++i) {
-    const float next = exp2_of(-20.0F + 0.001F * static_cast<float>(i));
-    REQUIRE(next > last);
-    last = next;
-  }
-}
-
 TEST_CASE("exp2_of half: within 1.1 units in the last place, of every half that matters") {
   double worst_ulp = 0;
   for (float t = 0; t >= -13; t -= 0x1p-10F) {

@@ -10,7 +10,6 @@
 #include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/make_splat.h"
-#include "algorithm/storage/build_memory_image.h"
 #include "tests/algorithm/render/test_clouds.h"
 
 namespace sgs {
@@ -146,37 +145,6 @@ TEST_CASE("encoded cloud: raw gives back the scene, both quantised forms the sam
   CHECK(words.codebooks == bits.codebooks);
   CHECK(std::memcmp(words.decoded.gaussians.data(), bits.decoded.gaussians.data(),
                     cloud.size() * sizeof(Gaussian<float>)) == 0);
-}
-
-TEST_CASE("encoded cloud: records and codebooks lie in the memory image where they should") {
-  for (const Encoding encoding : kAll) {
-    const EncodedCloud encoded = encode(cloud_of(7, 600, 2), encoding);
-    const auto [tree, by_chunks] = arrange_by_chunks(encoded.decoded, 16);
-    const auto [grid, by_voxels] = arrange_by_voxels(encoded.decoded, 1);
-    for (const bool chunks : {true, false}) {
-      const std::vector<std::uint32_t>& order = chunks ? by_chunks : by_voxels;
-      const EncodedCloud stored = reordered(encoded, order);
-      const MemoryImage image =
-          chunks ? build_memory_image(stored, tree) : build_memory_image(stored, grid);
-      const SceneLayout& layout = image.layout;
-      CHECK(layout.codebooks.bytes == encoded.format.codebook_bytes());
-      CHECK(std::equal(encoded.codebooks.begin(), encoded.codebooks.end(),
-                       image.at(layout.codebooks.base)));
-      CHECK(layout.split.second_bytes == split_of(layout.order(), encoded.format).second_bytes);
-      std::vector<std::byte> record(encoded.format.bytes()), first(layout.split.first_bytes()),
-          second(layout.split.second_bytes);
-      CHECK(layout.second_halves.bytes() == order.size() * second.size());
-      for (std::uint32_t slot = 0; slot < order.size(); ++slot) {
-        encoded.write_second_half(order[slot], record.data());
-        write_record(layout.split, encoded.format, encoded.decoded.gaussians[order[slot]],
-                     record.data(), first.data(), second.data());
-        REQUIRE(std::memcmp(image.at(layout.first_halves.address(slot)), first.data(),
-                            first.size()) == 0);
-        REQUIRE(std::memcmp(image.at(layout.second_halves.address(slot)), second.data(),
-                            second.size()) == 0);
-      }
-    }
-  }
 }
 
 }  // namespace

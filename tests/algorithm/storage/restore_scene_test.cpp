@@ -281,7 +281,7 @@ TEST_CASE("restore: random changes are refused or can be rendered") {
         if (region.bytes > 0) regions.push_back(region);
       }
       int refused = 0, rendered = 0;
-      for (int round = 0; round < 150; ++round) {
+      for (int round = 0; round < 50; ++round) {
         PackedScene changed = packed;
         const Region& region = regions[below(regions.size())];
         changed.image.bytes[region.base + below(region.bytes)] ^=

@@ -149,45 +149,18 @@ BlendedPixel<T> blend_pixel(const ProjectedScene<T>& scene, const Sequence& sequ
 }
 
 template <class T>
-struct LossValue {
-  T value;
-  std::uint64_t decisions;  // what is blended, capped and clamped: equal where L is smooth between
-};
-
-template <class T>
-std::uint64_t clamped_parts(const View<T>& view, const SceneOf<T>& scene,
-                            const ProjectedScene<T>& projected) {
-  std::uint64_t out = 0;
-  const auto note = [&](bool decision) { out = out * 1099511628211U + (decision ? 2 : 1); };
-  for (std::size_t i = 0; i < scene.raw.size(); ++i) {
-    const auto v = to_camera(view, scene.raw[i].mean);
-    const T ratio_x = T(v.x / v.z), ratio_y = T(v.y / v.z);
-    for (const bool beyond : {ratio_x < -view.limit_x, view.limit_x < ratio_x,
-                              ratio_y < -view.limit_y, view.limit_y < ratio_y}) {
-      note(beyond);
-    }
-    for (int k = 0; k < 3; ++k) note(projected.splats[i].rgb[k] > T(0.0));
-  }
-  return out;
-}
-
-template <class T>
-LossValue<T> loss_of(const View<T>& view, const SceneOf<T>& scene, const LinearLoss& loss,
-                     const Sequence& sequence) {
+T loss_of(const View<T>& view, const SceneOf<T>& scene, const LinearLoss& loss,
+          const Sequence& sequence) {
   const ProjectedScene<T> projected = project_scene(view, scene);
-  LossValue<T> out{T(0.0), clamped_parts(view, scene, projected)};
+  T out(0.0);
   for (int y = 0; y < view.height; ++y) {
     for (int x = 0; x < view.width; ++x) {
       const auto at = static_cast<std::size_t>(y * view.width + x);
       const auto pixel = blend_pixel(projected, sequence, loss.background, x, y);
       for (int k = 0; k < 3; ++k) {
-        out.value = T(out.value + T(loss.colour[at][k]) * pixel.colour[k]);
+        out = T(out + T(loss.colour[at][k]) * pixel.colour[k]);
       }
-      out.value = T(out.value + T(loss.transmittance[at]) * pixel.transmittance);
-      for (const auto& share : pixel.shares) {
-        const bool capped = !(share.alpha < constant<T>(kAlphaMax));
-        out.decisions = out.decisions * 1099511628211U + 2 * share.splat + (capped ? 1 : 0) + at;
-      }
+      out = T(out + T(loss.transmittance[at]) * pixel.transmittance);
     }
   }
   return out;

@@ -1,8 +1,6 @@
 // Gradients of whole frames in float: against the double ones of the pixel loop, finite on
-// extremes, the same on any number of threads.
+// extremes.
 #include "algorithm/tune/scene_gradient.h"
-
-#include <tbb/global_control.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -14,14 +12,6 @@
 
 namespace sgs::test {
 namespace {
-
-bool same_bits(const CloudGradient& a, const CloudGradient& b) {
-  const GaussianCloud &p = a.parameters, &q = b.parameters;
-  return same_bytes(a.indices, b.indices) && same_bytes(a.centres, b.centres) &&
-         same_bytes(p.means, q.means) && same_bytes(p.log_scales, q.log_scales) &&
-         same_bytes(p.quats, q.quats) && same_bytes(p.opacity_logits, q.opacity_logits) &&
-         same_bytes(p.sh_coeffs, q.sh_coeffs);
-}
 
 CloudGradient gradient_in_float(const Camera& camera, const GaussianCloud& parameters,
                                 const PixelGradient& by_pixel, const glm::vec3& background,
@@ -84,20 +74,6 @@ TEST_CASE("gradients in float are those in double to four digits") {
   const Camera camera = forward_camera(75, 46, 60);
   check(camera, scene_of(random_cloud(5, 300, 3, {0, 0, 3}, 1, 0.02F, 0.5F)),
         random_loss(camera, 6), "many");
-}
-
-TEST_CASE("gradients have the same bits for 1, 2 and 3 threads") {
-  const Camera camera = forward_camera(150, 90, 110);
-  const GaussianCloud cloud = random_cloud(7, 4000, 3, {0, 0, 3}, 1, 0.01F, 0.5F);
-  const PixelGradient by_pixel = in_float(random_loss(camera, 8), camera);
-  std::vector<CloudGradient> gradients;
-  for (const std::size_t threads : {1, 2, 3}) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    gradients.push_back(gradient_in_float(camera, cloud, by_pixel, glm::vec3(0.5F)));
-  }
-  REQUIRE(gradients[0].size() > 1000);
-  CHECK(same_bits(gradients[0], gradients[1]));
-  CHECK(same_bits(gradients[0], gradients[2]));
 }
 
 TEST_CASE("gradients are finite on needles, giants and at both ends of opacity") {

@@ -10,7 +10,7 @@
 
 using namespace sgs;
 
-TEST_CASE("chunk test misses nothing: random hard scenes") { test::fuzz_chunk_bounds(0, 15000); }
+TEST_CASE("chunk test misses nothing: random hard scenes") { test::fuzz_chunk_bounds(0, 8000); }
 
 TEST_CASE("chunk test misses nothing: Gaussians that only just reach a group") {
   CHECK(test::check_bounds_at_the_edge(1, 50000) > 20000);

@@ -105,7 +105,7 @@ std::size_t handed_on(const std::vector<CcuItem>& items) {
   return static_cast<std::size_t>(std::count_if(items.begin(), items.end(), comes));
 }
 
-void run(tb::Case& test, Takings& taken, const CcuWorkload& load, std::uint64_t seed) {
+void run_ccu(tb::Case& test, Takings& taken, const CcuWorkload& load, std::uint64_t seed) {
   tb::UnitBench bench(test, bench_of(load.port, tb::kGscoreMemoryBytes));
   const tb::TestScene scene = scene_of(load, seed);
   FrameJob frame = scene.job;
@@ -134,7 +134,7 @@ void run(tb::Case& test, Takings& taken, const CcuWorkload& load, std::uint64_t 
   bench.run();
 }
 
-Takings clocked(const CcuWorkload& load, std::uint64_t seed) {
+Takings clocked_ccu(const CcuWorkload& load, std::uint64_t seed) {
   const tb::TestScene scene = scene_of(load, seed);
   const GscoreConfig config = config_of(load);
   const SceneLayout& layout = scene.image.layout;
@@ -192,7 +192,7 @@ TEST_CASE("clocked reference: culling and conversion unit") {
            CcuWorkload{"slices of 1", 300, 4, single, port},
            CcuWorkload{"SH degree 3", 600, 4, published, port, 1, 1, 3},
        }) {
-    table.workload(load, run, clocked);
+    table.workload(load, run_ccu, clocked_ccu);
   }
 }
 

@@ -25,7 +25,7 @@ struct CoreBench {
   }
 };
 
-void run(tb::Case& test, Takings& taken, const CoreWorkload& load, std::uint64_t seed) {
+void run_render_core(tb::Case& test, Takings& taken, const CoreWorkload& load, std::uint64_t seed) {
   const CorePlan plan = plan_of(load, config_of(load), seed);
   CoreBench own(test, load, plan.records.size());
   tb::UnitBench& bench = own.bench;
@@ -61,7 +61,7 @@ void run(tb::Case& test, Takings& taken, const CoreWorkload& load, std::uint64_t
   bench.run();
 }
 
-Takings clocked(const CoreWorkload& load, std::uint64_t seed) {
+Takings clocked_render_core(const CoreWorkload& load, std::uint64_t seed) {
   const GscoreConfig config = config_of(load);
   const CorePlan plan = plan_of(load, config, seed);
   FrameJob frame;
@@ -119,7 +119,7 @@ TEST_CASE("clocked reference: rendering core") {
            CoreWorkload{"single precision, pixels in floats", 100, 1, false, published, 1, 1, 8,
                         BlendPrecision::kSingle, FrameFormat::kRgb32f},
        }) {
-    table.workload(load, run, clocked);
+    table.workload(load, run_render_core, clocked_render_core);
   }
 }
 

@@ -11,7 +11,8 @@
 namespace sgs::test {
 namespace {
 
-void run(tb::Case& test, Takings& taken, const ListerWorkload& load, std::uint64_t seed) {
+void run_tile_lister(tb::Case& test, Takings& taken, const ListerWorkload& load,
+                     std::uint64_t seed) {
   tb::UnitBench bench(test, bench_of(load.port, tb::kGscoreMemoryBytes));
   GscoreConfig config = config_of(load);
   FrameJob frame;
@@ -202,7 +203,7 @@ TEST_CASE("clocked reference: tile lister") {
            ListerWorkload{"tests bind, a quarter of lanes", 400, quarter, 1, 1, 1, 1, faster},
            ListerWorkload{"tiny buffers", 200, tiny, 4, 20, 4, 20, one, 1, 1},
        }) {
-    table.workload(load, run, [](const ListerWorkload& of, std::uint64_t seed) {
+    table.workload(load, run_tile_lister, [](const ListerWorkload& of, std::uint64_t seed) {
       Clocked clocked(of);
       clocked.run(seed);
       return clocked.taken;

@@ -92,7 +92,8 @@ class Finisher {
   std::size_t taken_ = 0;
 };
 
-void run(tb::Case& test, Takings& taken, const SorterWorkload& load, std::uint64_t seed) {
+void run_tile_sorter(tb::Case& test, Takings& taken, const SorterWorkload& load,
+                     std::uint64_t seed) {
   const auto lists = lists_of(load, seed);
   tb::UnitBench bench(test, bench_of(load.hardware.port, tb::kGscoreMemoryBytes));
   FrameJob frame;
@@ -137,7 +138,7 @@ void run(tb::Case& test, Takings& taken, const SorterWorkload& load, std::uint64
   bench.run();
 }
 
-Takings clocked(const SorterWorkload& load, std::uint64_t seed) {
+Takings clocked_tile_sorter(const SorterWorkload& load, std::uint64_t seed) {
   std::vector<LoadedList> tiles;
   for (const auto& list : lists_of(load, seed)) {
     LoadedList tile;
@@ -218,7 +219,7 @@ TEST_CASE("clocked reference: tile sorter") {
            SorterWorkload{"keys of 32 bits", 1500, 60000, wide_keys, 1, 1, 64, ~std::size_t{0},
                           NumberFormat::kSingle},
        }) {
-    table.workload(load, run, clocked);
+    table.workload(load, run_tile_sorter, clocked_tile_sorter);
   }
 }
 

@@ -53,7 +53,8 @@ Takings together(const std::vector<Takings>& of_readers) {
   return all;
 }
 
-void run(tb::Case& test, Takings& taken, const DecodingWorkload& load, std::uint64_t seed) {
+void run_decoding(tb::Case& test, Takings& taken, const DecodingWorkload& load,
+                  std::uint64_t seed) {
   const std::vector<tb::HfuPlan> plans = plans_of(load, seed);
   tb::UnitBench bench(test, bench_of(load.hardware.port, tb::memory_bytes(plans[0].scene.job)));
   bench.load(0, plans[0].scene.image.bytes);
@@ -109,7 +110,7 @@ struct ClockedReader {
   std::uint64_t last;
 };
 
-Takings clocked(const DecodingWorkload& load, std::uint64_t seed) {
+Takings clocked_decoding(const DecodingWorkload& load, std::uint64_t seed) {
   const std::vector<tb::HfuPlan> plans = plans_of(load, seed);
   const CodebookHardware buffer = codebooks_of(load, plans[0]);
   ClockedCodebooks codebooks(buffer, load.readers);
@@ -182,7 +183,7 @@ TEST_CASE("clocked reference: fine filters that decode") {
            DecodingWorkload{"tiny buffers", 4, full, 50, {}, tiny},
            DecodingWorkload{"tiny buffers, output stalled", 4, full, 5, {1, 1, 4, 200}, tiny},
        }) {
-    table.workload(load, run, clocked);
+    table.workload(load, run_decoding, clocked_decoding);
   }
 }
 

@@ -60,7 +60,7 @@ std::vector<CoarseShare> clocked_shares(const tb::HfuPlan& plan) {
   return shares;
 }
 
-std::uint64_t what_of(const FineCandidate& c) {
+std::uint64_t what_of_candidate(const FineCandidate& c) {
   return c.mark == Mark::kNone ? c.slot : kMarks + c.visit;
 }
 
@@ -79,7 +79,8 @@ void run_coarse(tb::Case& test, Takings& taken, const CoarseWorkload& load, std:
   unit.finished(finished);
   bench.add_unit(unit);
   add_source(bench, "vsu", plan.shares, load.waits.in(seed), in);
-  add_sink(bench, "sorter", until_taken(last_of(plan)), load.waits.out(seed), out, taken, what_of);
+  add_sink(bench, "sorter", until_taken(last_of(plan)), load.waits.out(seed), out, taken,
+           what_of_candidate);
   bench.run();
   if (load.waits.finishing.pitch > 0) taken = only_marks(taken);
 }

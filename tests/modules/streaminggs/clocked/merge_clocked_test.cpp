@@ -9,7 +9,7 @@
 namespace sgs::test {
 namespace {
 
-constexpr std::uint64_t kMark = ~std::uint64_t{0};
+constexpr std::uint64_t kMergeMark = ~std::uint64_t{0};
 
 struct MergeWorkload {
   const char* name;
@@ -46,11 +46,11 @@ tb::MergePlan plan_of(const MergeWorkload& load, std::uint64_t seed) {
 
 // Depths are multiples of 0.5.
 std::uint64_t depth_of(float depth) {
-  return depth == tb::kInfinity ? kMark >> 20U : static_cast<std::uint64_t>(2 * depth);
+  return depth == tb::kInfinity ? kMergeMark >> 20U : static_cast<std::uint64_t>(2 * depth);
 }
 std::uint64_t key_of(float depth, std::uint32_t slot) { return depth_of(depth) << 16U | slot; }
-std::uint64_t what_of(const FineCandidate& key) {
-  return key.mark == Mark::kNone ? key_of(key.depth, key.slot) : kMark;
+std::uint64_t what_of_key(const FineCandidate& key) {
+  return key.mark == Mark::kNone ? key_of(key.depth, key.slot) : kMergeMark;
 }
 
 // [sorter] what it hands on.
@@ -77,13 +77,13 @@ std::vector<std::vector<FineCandidate>> inputs_of(const tb::MergePlan& plan) {
 
 // Until the marks of all groups are there.
 bool all_released(const tb::MergePlan& plan, const Takings& taken) {
-  const auto is_mark = [](const Taken& t) { return t.what == kMark; };
+  const auto is_mark = [](const Taken& t) { return t.what == kMergeMark; };
   return static_cast<std::size_t>(std::count_if(taken.begin(), taken.end(), is_mark)) ==
          plan.groups.size();
 }
 
 // Takes from the FIFOs in turn, as rendering does behind them.
-void run(tb::Case& test, Takings& taken, const MergeWorkload& load, std::uint64_t seed) {
+void run_merge(tb::Case& test, Takings& taken, const MergeWorkload& load, std::uint64_t seed) {
   const tb::MergePlan plan = plan_of(load, seed);
   tb::MergeRun run(test, bench_of(load.port(), tb::still_bench(plan).memory_bytes), plan);
   add_finishing(run.bench, load.finishing, plan.groups.size(), run.finished.channel);
@@ -96,14 +96,14 @@ void run(tb::Case& test, Takings& taken, const MergeWorkload& load, std::uint64_
   run.bench.add_thread("reader", [&](Activity& activity) {
     while (!all_released(plan, taken)) {
       run.bench.clock().wait_cycles(pace.gap(taken.size()));
-      const std::uint64_t what = what_of(run.outputs[taken.size() % plan.hfus]->pop(activity));
+      const std::uint64_t what = what_of_key(run.outputs[taken.size() % plan.hfus]->pop(activity));
       taken.push_back({run.bench.clock().now_cycles(), what});
     }
   });
   run.bench.run();
 }
 
-Takings clocked(const MergeWorkload& load, std::uint64_t seed) {
+Takings clocked_merge(const MergeWorkload& load, std::uint64_t seed) {
   const tb::MergePlan plan = plan_of(load, seed);
   const RegionSpan spill = tb::merge_job(plan).spill;
   ClockedMerge unit(
@@ -116,7 +116,7 @@ Takings clocked(const MergeWorkload& load, std::uint64_t seed) {
     std::vector<MergeItem> items;
     for (const FineCandidate& key : keys) {
       const bool is_mark = key.mark != Mark::kNone;
-      items.push_back({what_of(key), key.group, is_mark, key.mark == Mark::kEndOfGroup,
+      items.push_back({what_of_key(key), key.group, is_mark, key.mark == Mark::kEndOfGroup,
                        depth_of(key.release_below) << 16U});
     }
     sources.emplace_back(std::move(items), Pace(seed + number++, load.in_one_in, load.in_longest));
@@ -135,7 +135,9 @@ Takings clocked(const MergeWorkload& load, std::uint64_t seed) {
   return sink.taken();
 }
 
-void compare(Comparison& table, const MergeWorkload& load) { table.workload(load, run, clocked); }
+void compare(Comparison& table, const MergeWorkload& load) {
+  table.workload(load, run_merge, clocked_merge);
+}
 
 TEST_CASE("clocked reference: merge unit") {
   Comparison table("merge unit");

@@ -10,7 +10,7 @@
 namespace sgs::test {
 namespace {
 
-constexpr std::uint64_t kMark = 1U << 30U;
+constexpr std::uint64_t kSplatMark = 1U << 30U;
 constexpr std::uint32_t kGroups = 10, kVisitsOfGroup = 6;
 
 struct PaperSorterWorkload {
@@ -51,12 +51,13 @@ std::vector<std::vector<SplatToken>> inputs_of(const PaperSorterWorkload& load,
 }
 
 std::uint64_t what_of(const SplatToken& token) {
-  if (token.mark != Mark::kNone) return kMark;
+  if (token.mark != Mark::kNone) return kSplatMark;
   return static_cast<std::uint64_t>(token.splat.depth) << 10U | token.splat.index;
 }
 
 // Takes until it has the marks of all visits.
-void run(tb::Case& test, Takings& taken, const PaperSorterWorkload& load, std::uint64_t seed) {
+void run_paper_sorter(tb::Case& test, Takings& taken, const PaperSorterWorkload& load,
+                      std::uint64_t seed) {
   constexpr int kSide = 32;
   const StreamingJob job = tb::frame_job(kSide * static_cast<int>(kGroups), kSide, square_of(kSide),
                                          FrameFormat::kRgb8, kSplatEntryBytes);
@@ -86,14 +87,14 @@ void run(tb::Case& test, Takings& taken, const PaperSorterWorkload& load, std::u
       bench.clock().wait_cycles(pace.gap(taken.size()));
       taken.push_back({0, what_of(out.pop(activity))});
       taken.back().cycle = bench.clock().now_cycles();
-      marks += taken.back().what == kMark ? 1 : 0;
+      marks += taken.back().what == kSplatMark ? 1 : 0;
     }
   });
   add_finishing(bench, load.finishing, kGroups, finished);
   bench.run();
 }
 
-Takings clocked(const PaperSorterWorkload& load, std::uint64_t seed) {
+Takings clocked_paper_sorter(const PaperSorterWorkload& load, std::uint64_t seed) {
   ClockedPaperSorter unit(load.turns, load.skip_trivial, load.hfus);
   std::vector<ClockedFifo<PaperSorterItem>> in(load.hfus,
                                                ClockedFifo<PaperSorterItem>(load.in_entries));
@@ -145,7 +146,7 @@ TEST_CASE("clocked reference: sorting unit of paper order, nothing spilled") {
            PaperSorterWorkload{
                "groups that finish", 0, 64, 1, 1, 1, 1, 7, 4, 4, alone, true, {600}},
        }) {
-    table.workload(load, run, clocked);
+    table.workload(load, run_paper_sorter, clocked_paper_sorter);
   }
 }
 

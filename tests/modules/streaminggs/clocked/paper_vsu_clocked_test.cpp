@@ -56,7 +56,7 @@ tb::PaperVsuPlan plan_of(const PaperVsuWorkload& load, std::uint64_t seed) {
   return plan;
 }
 
-std::uint64_t what_of(const VisitShare& share) {
+std::uint64_t what_of_share(const VisitShare& share) {
   return share.mark == Mark::kEndOfGroup ? ClockedPaperVsu::kEndOfGroup
                                          : ClockedPaperVsu::what(share.first, share.count);
 }
@@ -72,7 +72,8 @@ Takings joined(const std::vector<Takings>& of_hfus) {
   return all;
 }
 
-void run(tb::Case& test, Takings& taken, const PaperVsuWorkload& load, std::uint64_t seed) {
+void run_paper_vsu(tb::Case& test, Takings& taken, const PaperVsuWorkload& load,
+                   std::uint64_t seed) {
   const tb::PaperVsuPlan plan = plan_of(load, seed);
   const StreamingJob& job = plan.scene.job;
   tb::UnitBench bench(test, bench_of(load.hardware.rays.port, tb::memory_bytes(job)));
@@ -89,7 +90,7 @@ void run(tb::Case& test, Takings& taken, const PaperVsuWorkload& load, std::uint
       const Pace pace = pace_of(load, seed, h);
       for (std::size_t ends = 0; ends < job.groups.size();) {
         bench.clock().wait_cycles(pace.gap(of_hfus[h].size()));
-        const std::uint64_t what = what_of(shares[h]->pop(activity));
+        const std::uint64_t what = what_of_share(shares[h]->pop(activity));
         of_hfus[h].push_back({bench.clock().now_cycles(), what});
         ends += what == ClockedPaperVsu::kEndOfGroup ? 1 : 0;
       }
@@ -100,7 +101,7 @@ void run(tb::Case& test, Takings& taken, const PaperVsuWorkload& load, std::uint
   taken = joined(of_hfus);
 }
 
-Takings clocked(const PaperVsuWorkload& load, std::uint64_t seed) {
+Takings clocked_paper_vsu(const PaperVsuWorkload& load, std::uint64_t seed) {
   const tb::PaperVsuPlan plan = plan_of(load, seed);
   const StreamingJob& job = plan.scene.job;
   ClockedPaperVsu unit(load.hardware, job.view, plan.scene.grid, job.layout.voxel_table(),
@@ -171,7 +172,7 @@ TEST_CASE("clocked reference: VSU of paper order") {
            PaperVsuWorkload{"passes, small voxels", 4000, 1, 1, full_and_far, 4, 4, 0.3F},
            PaperVsuWorkload{"groups that finish", 1500, 4, 300, paper, 4, 4, 1, {21000}},
        }) {
-    table.workload(load, run, clocked);
+    table.workload(load, run_paper_vsu, clocked_paper_vsu);
   }
 }
 

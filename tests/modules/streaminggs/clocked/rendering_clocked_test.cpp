@@ -115,7 +115,8 @@ struct Listener : sc_core::sc_module, FinishGroupIf {
   Takings& taken_;
 };
 
-void run(tb::Case& test, Takings& taken, const RenderingWorkload& load, std::uint64_t seed) {
+void run_rendering(tb::Case& test, Takings& taken, const RenderingWorkload& load,
+                   std::uint64_t seed) {
   const StreamingJob job = job_of(load);
   tb::UnitBench bench(test, bench_of(load.hardware.port, tb::memory_bytes(job)));
   UnitContext context = bench.context(job);
@@ -171,7 +172,7 @@ DrainedGroup drained(const StreamingJob& job, const PixelRect& pixels, std::uint
   return group;
 }
 
-Takings clocked(const RenderingWorkload& load, std::uint64_t seed) {
+Takings clocked_rendering(const RenderingWorkload& load, std::uint64_t seed) {
   const StreamingJob job = job_of(load);
   const auto groups = splats_of(load, job, seed);
   std::vector<DrainedGroup> drains;
@@ -247,7 +248,7 @@ TEST_CASE("clocked reference: rendering unit") {
            RenderingWorkload{"as of paper: a sub-tile a cycle, two rows a cycle", 300, 1, 1, 1,
                              wide, preset_of<PaperConfig>("paper").group},
        }) {
-    table.workload(load, run, clocked);
+    table.workload(load, run_rendering, clocked_rendering);
   }
 }
 

@@ -8,7 +8,7 @@
 namespace sgs::test {
 namespace {
 
-constexpr std::uint64_t kMark = 1U << 30U;
+constexpr std::uint64_t kKeyMark = 1U << 30U;
 
 struct SorterWorkload {
   const char* name;
@@ -35,12 +35,12 @@ std::vector<FineCandidate> keys_of(const SorterWorkload& load, std::uint64_t see
   return keys;
 }
 
-std::uint64_t what_of(const FineCandidate& key) {
-  if (key.mark != Mark::kNone) return kMark;
+std::uint64_t what_of_sorted(const FineCandidate& key) {
+  if (key.mark != Mark::kNone) return kKeyMark;
   return static_cast<std::uint64_t>(key.depth) << 10U | key.slot;
 }
 
-void run(tb::Case& test, Takings& taken, const SorterWorkload& load, std::uint64_t seed) {
+void run_sorter(tb::Case& test, Takings& taken, const SorterWorkload& load, std::uint64_t seed) {
   tb::UnitBench bench(test, {});
   StreamingJob job;
   UnitContext context = bench.context(job);
@@ -54,14 +54,14 @@ void run(tb::Case& test, Takings& taken, const SorterWorkload& load, std::uint64
   const std::vector<FineCandidate> keys = keys_of(load, seed);
   add_source(bench, "before", keys, {seed, load.in_one_in, load.in_longest}, in);
   add_sink(bench, "behind", until_items(keys.size()),
-           {seed + 1000, load.out_one_in, load.out_longest}, out, taken, what_of);
+           {seed + 1000, load.out_one_in, load.out_longest}, out, taken, what_of_sorted);
   bench.run();
 }
 
-Takings clocked(const SorterWorkload& load, std::uint64_t seed) {
+Takings clocked_sorter(const SorterWorkload& load, std::uint64_t seed) {
   std::vector<SorterItem> items;
   for (const FineCandidate& key : keys_of(load, seed)) {
-    items.push_back({what_of(key), key.mark != Mark::kNone});
+    items.push_back({what_of_sorted(key), key.mark != Mark::kNone});
   }
   const std::size_t count = items.size();
   ClockedSorter unit;
@@ -89,7 +89,7 @@ TEST_CASE("clocked reference: sorting unit of exact order") {
            SorterWorkload{"lists of 17 to 64", 17, 64},
            SorterWorkload{"lists of 65 to 256", 65, 256},
        }) {
-    table.workload(load, run, clocked);
+    table.workload(load, run_sorter, clocked_sorter);
   }
 }
 

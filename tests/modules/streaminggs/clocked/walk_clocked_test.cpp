@@ -41,11 +41,11 @@ tb::ExactVsuPlan plan_of(const WalkWorkload& load, std::uint64_t seed) {
   return plan;
 }
 
-std::uint64_t what_of(const VisitShare& visit) {
+std::uint64_t what_of_visit(const VisitShare& visit) {
   return visit.mark == Mark::kEndOfGroup ? ClockedWalk::kEndOfGroup : visit.first;
 }
 
-void run(tb::Case& test, Takings& taken, const WalkWorkload& load, std::uint64_t seed) {
+void run_walk(tb::Case& test, Takings& taken, const WalkWorkload& load, std::uint64_t seed) {
   const tb::ExactVsuPlan plan = plan_of(load, seed);
   tb::UnitBench bench(test, bench_of(load.hardware.port, tb::memory_bytes(plan.job)));
   bench.load(0, plan.image.bytes);
@@ -65,7 +65,7 @@ void run(tb::Case& test, Takings& taken, const WalkWorkload& load, std::uint64_t
   bench.add_thread("hfus", [&](Activity& activity) {
     for (std::size_t ends = 0; ends < plan.job.groups.size();) {
       bench.clock().wait_cycles(pace.gap(taken.size()));
-      const std::uint64_t what = what_of(visits[taken.size() % load.hfus]->pop(activity));
+      const std::uint64_t what = what_of_visit(visits[taken.size() % load.hfus]->pop(activity));
       taken.push_back({bench.clock().now_cycles(), what});
       ends += what == ClockedWalk::kEndOfGroup ? 1 : 0;
     }
@@ -73,7 +73,7 @@ void run(tb::Case& test, Takings& taken, const WalkWorkload& load, std::uint64_t
   bench.run();
 }
 
-Takings clocked(const WalkWorkload& load, std::uint64_t seed) {
+Takings clocked_walk(const WalkWorkload& load, std::uint64_t seed) {
   const tb::ExactVsuPlan plan = plan_of(load, seed);
   ClockedWalk unit(load.hardware, plan.job.view, plan.tree.nodes,
                    plan.job.layout.chunk_table().nodes, plan.job.groups, load.finishing);
@@ -118,7 +118,7 @@ TEST_CASE("clocked reference: VSU of exact order") {
            WalkWorkload{"a child a cycle, operations of 2", 1500, 1, 1, fast},
            WalkWorkload{"groups that finish", 3000, 1, 1, exact, 4, 4, {3000}, 116},
        }) {
-    table.workload(load, run, clocked, load.apart);
+    table.workload(load, run_walk, clocked_walk, load.apart);
   }
 }
 
