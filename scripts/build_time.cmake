@@ -60,6 +60,8 @@ function(sgs_precompile name)
     set(headers ${name})
     if(target IN_LIST unoptimised)
       set(headers ${name}_unoptimised)
+      # Without optimisation, inline functions that nobody calls ask for their libraries, too.
+      target_link_libraries(${target} PRIVATE ${ARG_LIBS})
     endif()
     if(NOT TARGET ${headers})
       set(empty ${PROJECT_BINARY_DIR}/${headers}.cpp)

@@ -62,7 +62,8 @@ struct Centres {
   Centres(const SceneParts& parts, const JsonPlace& fields, std::uint64_t count)
       : low(read_texture(parts, file_name(fields, 0), count)),
         high(read_texture(parts, file_name(fields, 1), count)) {
-    const std::vector<double> mins = fields.at("mins").numbers(3), maxs = fields.at("maxs").numbers(3);
+    const std::vector<double> mins = fields.at("mins").numbers(3),
+                              maxs = fields.at("maxs").numbers(3);
     for (std::size_t i = 0; i < 3; ++i) {
       least[i] = mins[i];
       span[i] = maxs[i] == mins[i] ? 1 : maxs[i] - mins[i];
