@@ -13,6 +13,13 @@ double DramConfig::io_pj_per_bit_of(const Memspec& device) const {
   return io_pj_per_bit < 0 ? device.io_pj_per_bit : io_pj_per_bit;
 }
 
+std::uint32_t DramConfig::refreshes_postponed(const Memspec& device) const {
+  if (refresh_postpone_max >= 0) return static_cast<std::uint32_t>(refresh_postpone_max);
+  const bool device_names_bank =
+      refresh != RefreshMode::kPerBank || device.refresh_order == RefreshOrder::kInTurn;
+  return device_names_bank ? 0 : kMostPostponed;
+}
+
 void DramConfig::validate() const {
   const auto refuse = [](const char* key, const std::string& got, const std::string& expected) {
     throw InputError(fmt::format("dram.{}: got {}, expected {}", key, got, expected));

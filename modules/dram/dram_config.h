@@ -40,7 +40,7 @@ struct DramConfig {
   double back_end_ns = 10;
 
   RefreshMode refresh = RefreshMode::kPerBank;  // LPDDR has it; the other banks go on
-  std::uint32_t refresh_postpone_max = 0;
+  std::int32_t refresh_postpone_max = -1;       // negative: by the memspec
   std::uint32_t power_down_idle_cycles = 0;
   std::uint32_t self_refresh_idle_cycles = 0;
 
@@ -48,6 +48,9 @@ struct DramConfig {
   double io_pj_per_bit = -1;  // negative: the memspec's
 
   double io_pj_per_bit_of(const Memspec& device) const;
+  // Without a value of its own none where the device names the bank of a refresh, else as many as
+  // the standards allow.
+  std::uint32_t refreshes_postponed(const Memspec& device) const;
 
   // InputError naming the key, what it is and what is allowed. Loads the memspec.
   void validate() const;
@@ -95,8 +98,9 @@ inline void visit(ConfigVisitor& v, DramConfig& c) {
                         {"all_bank", RefreshMode::kAllBank},
                         {"per_bank", RefreshMode::kPerBank}}),
     "kind of refresh");
-  v("refresh_postpone_max", c.refresh_postpone_max, in_range(0, 8),
-    "refresh commands that may be owed while requests wait");
+  v("refresh_postpone_max", c.refresh_postpone_max, in_range(-1, 8),
+    "refresh commands that may be owed while requests wait; negative: 0 where the device names the "
+    "bank, else 8");
   v("power_down_idle_cycles", c.power_down_idle_cycles, in_range(0, 100000000),
     "idle time of a rank before power-down; 0: never");
   v("self_refresh_idle_cycles", c.self_refresh_idle_cycles, in_range(0, 100000000),

@@ -15,6 +15,9 @@ namespace sgs {
 // controller names. Each has its turn before any has a second one.
 enum class RefreshOrder { kInTurn, kAny };
 
+// Refreshes that the standards let wait beyond the one that is due.
+constexpr std::uint32_t kMostPostponed = 8;
+
 constexpr const char* kDefaultSource = "default";
 
 struct Memspec {

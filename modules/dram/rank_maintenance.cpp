@@ -7,9 +7,6 @@ namespace sgs {
 
 namespace {
 std::uint64_t idle_limit(std::uint32_t cycles) { return cycles == 0 ? kNever : cycles; }
-// Refreshes that JESD209-4 lets wait, here of banks in use; of per-bank ones it allows more.
-constexpr std::uint64_t kMostPostponed = 8;
-
 std::uint64_t all_of(std::uint32_t banks) { return ~std::uint64_t{0} >> (64 - banks); }
 std::uint64_t after(std::uint64_t cycle, std::uint64_t delay) {
   return delay == kNever ? kNever : cycle + delay;
@@ -21,12 +18,11 @@ RankMaintenance::RankMaintenance(const DramConfig& config, const Memspec& memspe
     : mode_(config.refresh),
       rank_(rank),
       banks_(memspec.organisation.banks),
-      any_bank_(config.refresh == RefreshMode::kPerBank &&
-                memspec.refresh_order == RefreshOrder::kAny),
+      names_bank_(config.refresh == RefreshMode::kPerBank &&
+                  memspec.refresh_order == RefreshOrder::kAny),
       interval_(config.refresh == RefreshMode::kPerBank ? memspec.timing_cycles.refi_bank
                                                         : memspec.timing_cycles.refi),
-      postpone_(interval_ * config.refresh_postpone_max),
-      postpone_in_use_(any_bank_ ? interval_ * kMostPostponed : postpone_),
+      postpone_(interval_ * config.refreshes_postponed(memspec)),
       power_down_idle_(idle_limit(config.power_down_idle_cycles)),
       self_refresh_idle_(idle_limit(config.self_refresh_idle_cycles)),
       due_banks_(all_of(banks_)) {
@@ -37,7 +33,7 @@ RankMaintenance::RankMaintenance(const DramConfig& config, const Memspec& memspe
 }
 
 bool RankMaintenance::on_waiting(std::uint64_t banks, std::uint64_t cycle) {
-  if (!any_bank_ || banks == waiting_banks_) return false;
+  if (!names_bank_ || banks == waiting_banks_) return false;
   waiting_banks_ = banks;
   const std::uint32_t bank = refresh_bank_;
   const std::uint64_t urgent_from = urgent_from_;
@@ -50,7 +46,7 @@ bool RankMaintenance::on_waiting(std::uint64_t banks, std::uint64_t cycle) {
 
 void RankMaintenance::choose_bank() {
   refresh_bank_ = turn_;
-  if (!any_bank_) return;
+  if (!names_bank_) return;
   const std::uint64_t idle = due_banks_ & ~waiting_banks_;
   const std::uint64_t banks = idle != 0 ? idle : due_banks_;
   const std::uint64_t from_turn = banks >> turn_ << turn_;
@@ -58,9 +54,9 @@ void RankMaintenance::choose_bank() {
 }
 
 void RankMaintenance::set_urgency(std::uint64_t cycle) {
-  if (any_bank_) {
+  if (names_bank_) {
     const bool in_use = (waiting_banks_ >> refresh_bank_ & 1) != 0;
-    urgent_from_ = refresh_due_ + (in_use ? postpone_in_use_ : postpone_);
+    urgent_from_ = refresh_due_ + (in_use ? postpone_ : 0);
     return;
   }
   // Once owed refreshes are being worked off they go back to back: that is what postponing gains.
@@ -77,30 +73,32 @@ void RankMaintenance::set_limits() {
   other_banks_limit_ = mode_ == RefreshMode::kPerBank ? kNever : urgent_from_;
 }
 
-Candidate RankMaintenance::next(const DeviceTiming& device, std::uint64_t wanted_from) const {
-  const bool wanted = wanted_from != kNever;
-  const std::uint64_t refresh_from = wanted ? urgent_from_ : refresh_due_;
+Candidate RankMaintenance::next(const DeviceTiming& device, std::uint64_t wanted_from,
+                                std::uint64_t clock) const {
   switch (state_) {
     case State::kSelfRefresh:
-      if (!wanted) return {};
+      if (wanted_from == kNever) return {};
       return {std::max(wanted_from, device.earliest_exit(rank_)), Command::kSelfRefreshExit, rank_,
               0};
     case State::kPowerDown: {
       const std::uint64_t leave =
-          std::min({wanted_from, refresh_from, after(idle_since_, self_refresh_idle_)});
+          std::min({wanted_from, refresh_due_, after(idle_since_, self_refresh_idle_)});
       if (leave == kNever) return {};
       return {std::max(leave, device.earliest_exit(rank_)), Command::kPowerDownExit, rank_, 0};
     }
     case State::kUp:
       break;
   }
+  const auto in_time = [&](const Candidate& c) { return std::max(c.cycle, clock) < wanted_from; };
   Candidate best;
-  if (refresh_from != kNever) best = refresh(device, refresh_from);
-  if (!wanted) {
-    const Candidate low_power = sleep(device);
-    // Not while a refresh is due: it would be left again at once.
-    if (low_power.cycle < refresh_from && low_power.cycle < best.cycle) best = low_power;
+  if (refresh_due_ != kNever) {
+    best = refresh(device, refresh_due_);
+    if (!in_time(best)) best = refresh(device, urgent_from_);
   }
+  const Candidate low_power = sleep(device);
+  // Not while a refresh is due: it would be left again at once.
+  if (in_time(low_power) && low_power.cycle < refresh_due_ && low_power.cycle < best.cycle)
+    best = low_power;
   return best;
 }
 
@@ -149,7 +147,9 @@ void RankMaintenance::on_command(Command command, std::uint64_t cycle) {
       // The device has refreshed itself; the standard asks for one refresh after leaving.
       if (mode_ != RefreshMode::kOff) {
         refresh_due_ = cycle;
+        // It also begins its count of banks again.
         due_banks_ = all_of(banks_);
+        turn_ = 0;
         choose_bank();
         set_urgency(0);
       }

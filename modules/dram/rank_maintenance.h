@@ -24,17 +24,21 @@ class RankMaintenance {
  public:
   RankMaintenance(const DramConfig& config, const Memspec& memspec, std::uint32_t rank);
 
-  // Requests wait for these banks of the rank, a bit each, from `cycle` on. A refresh that may go
-  // to any bank goes to one that nobody waits for. True if that changes next() or request_limit().
+  // The controller names the bank of a per-bank refresh.
+  bool names_bank() const { return names_bank_; }
+
+  // Requests that are through the front end wait for these banks of the rank, a bit each, from
+  // `cycle` on. A refresh whose bank the controller names goes to one that nobody waits for. True
+  // if that changes next() or request_limit().
   bool on_waiting(std::uint64_t banks, std::uint64_t cycle);
 
-  // The next command that the rank wants for itself. `wanted_from`: the cycle from which requests
-  // wait for this rank, kNever when none does.
-  Candidate next(const DeviceTiming& device, std::uint64_t wanted_from) const;
+  // The next command that the rank wants for itself, not before `clock`. `wanted_from`: the cycle
+  // from which requests wait for this rank, kNever when none does.
+  Candidate next(const DeviceTiming& device, std::uint64_t wanted_from, std::uint64_t clock) const;
 
-  // True if next() could come up with a command up to `cycle`; cheap.
-  bool may_act_by(std::uint64_t cycle, bool wanted) const {
-    return !wanted || state_ != State::kUp || urgent_from_ <= cycle;
+  // True if next() could come up with a command from `clock` up to `cycle`; cheap.
+  bool may_act_by(std::uint64_t cycle, std::uint64_t wanted_from, std::uint64_t clock) const {
+    return wanted_from > clock || state_ != State::kUp || urgent_from_ <= cycle;
   }
 
   // A request's command to `bank` must be sent before this cycle: refresh goes first from there.
@@ -61,10 +65,9 @@ class RankMaintenance {
   const RefreshMode mode_;
   const std::uint32_t rank_;
   const std::uint32_t banks_;
-  const bool any_bank_;  // the controller names the bank of a per-bank refresh
+  const bool names_bank_;
   const std::uint64_t interval_;
-  const std::uint64_t postpone_;         // cycles
-  const std::uint64_t postpone_in_use_;  // likewise, of a bank that requests wait for
+  const std::uint64_t postpone_;  // cycles
   const std::uint64_t power_down_idle_;
   const std::uint64_t self_refresh_idle_;
 

@@ -29,8 +29,7 @@ constexpr std::uint32_t kEverything = (1u << kCommands) - 1;
 constexpr std::uint32_t kExits = set_of({C::kPowerDownExit, C::kSelfRefreshExit});
 constexpr std::uint32_t kSleeps = set_of({C::kPowerDownEnter, C::kSelfRefreshEnter});
 
-// Eight refreshes may be postponed beyond the one that is due.
-constexpr std::uint64_t kMostOwed = 9;
+constexpr std::uint64_t kMostOwed = kMostPostponed + 1;
 
 std::uint32_t write_end_of(const Memspec& m, WriteLatencySet set) {
   const Memspec::Timing& t = m.timing_cycles;
@@ -265,6 +264,7 @@ void TraceChecker::apply(const CommandRecord& r) {
       rank.self_refresh = false;
       rank.refreshes_due_from = r.cycle;
       rank.refreshes = 0;
+      rank.next_bank = 0;
       rank.had_their_turn = 0;
       break;
     default:

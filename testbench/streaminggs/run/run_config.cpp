@@ -106,6 +106,8 @@ void resolve_machine(RunConfig& config) {
     const Memspec device = load_memspec(config.dram.memspec);
     const AddressMapping mapping(config.dram, device);
     config.dram.io_pj_per_bit = config.dram.io_pj_per_bit_of(device);
+    config.dram.refresh_postpone_max =
+        static_cast<std::int32_t>(config.dram.refreshes_postponed(device));
     config.add_choices(scheme_of(config.storage.order).choose(config.storage, mapping.run_bytes()));
     config.design->resolve(config.storage, config.chosen);
   });

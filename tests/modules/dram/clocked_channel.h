@@ -52,12 +52,14 @@ class ClockedChannel {
   // A cycle: at most one command.
   void step() {
     refresh_.begin_cycle(now_);
-    std::set<std::uint32_t> waiting;
+    std::set<std::uint32_t> waiting;  // banks of requests that are through the front end
     for (const Queue* requests : {&reads_, &writes_}) {
-      for (const Entry& entry : *requests) waiting.insert(entry.request.bank);
+      for (const Entry& entry : *requests) {
+        if (now_ >= entry.ready) waiting.insert(entry.request.bank);
+      }
     }
     refresh_.look_for_bank(waiting);
-    if (!refresh_.wanted(!empty()) || !send_refresh()) send_request();
+    if (!refresh_.wanted(!waiting.empty()) || !send_refresh()) send_request();
     ++now_;
   }
   const std::vector<Sent>& sent() const { return sent_; }

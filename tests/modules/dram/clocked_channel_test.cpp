@@ -27,7 +27,7 @@ DramConfig config_of(const ChannelHardware& hw) {
   DramConfig c;
   c.channels = 1;
   c.refresh = hw.refresh.mode;
-  c.refresh_postpone_max = hw.refresh.most_postponed;
+  c.refresh_postpone_max = static_cast<std::int32_t>(hw.refresh.most_postponed);
   c.front_end_ns = 10;  // 8 cycles of 1.25 ns
   c.scheduler = hw.hits_first ? SchedulerKind::kFrFcfs : SchedulerKind::kFcfs;
   c.age_cap_cycles = 1000000;
@@ -139,8 +139,11 @@ TEST_CASE("clocked reference: DRAM commands with refresh") {
   tiny.read_entries = tiny.write_entries = 2;
   tiny.high_watermark = 2;
   tiny.low_watermark = 0;
-  ChannelHardware any = bank, any_late = refreshed(RefreshMode::kPerBank, 3), any_tiny = tiny;
-  any.refresh.any_bank = any_late.refresh.any_bank = any_tiny.refresh.any_bank = true;
+  ChannelHardware any = bank_late, any_late = refreshed(RefreshMode::kPerBank, 3), any_tiny = tiny;
+  ChannelHardware any_now = bank;
+  for (ChannelHardware* hardware : {&any, &any_late, &any_tiny, &any_now}) {
+    hardware->refresh.any_bank = true;
+  }
   for (const DramWorkload& load : {
            DramWorkload{"all banks, light", 8, 64, 4, 30, 200, all},
            DramWorkload{"all banks, heavy: random rows", 8, 1000, 2, 30, 1, all},
@@ -163,6 +166,9 @@ TEST_CASE("clocked reference: DRAM commands with refresh") {
            DramWorkload{"any bank, heavy: random rows", 8, 1000, 2, 30, 1, any},
            DramWorkload{"any bank, few banks asked for", 3, 4, 8, 30, 1, any},
            DramWorkload{"any bank, 3 late, medium", 8, 64, 4, 30, 40, any_late},
+           DramWorkload{"any bank, 3 late, heavy", 8, 1000, 2, 30, 1, any_late},
+           DramWorkload{"any bank, none late, medium", 8, 64, 4, 30, 40, any_now},
+           DramWorkload{"any bank, none late, heavy", 8, 1000, 2, 30, 1, any_now},
            DramWorkload{"any bank, tiny queues", 8, 64, 4, 50, 1, any_tiny},
        }) {
     compare(load);

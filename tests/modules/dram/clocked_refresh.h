@@ -3,8 +3,9 @@
 // owed as are allowed; one more, and refreshes go first until none is owed.
 //
 // Where the controller names the bank, it is looked for every cycle: of those that have not had
-// their turn in this round the next one, round the banks, that no request waits for. If requests
-// wait for all of them, eight refreshes may be owed; one more, and the next bank's goes first.
+// their turn in this round the next one, round the banks, that no request waits for. Its refresh
+// goes at once. If requests wait for all of them, as many may be owed as are allowed; one more, and
+// the next bank's goes first.
 #pragma once
 
 #include <cstdint>
@@ -72,7 +73,7 @@ class ClockedRefresh {
   }
 
  private:
-  std::uint32_t allowed() const { return in_use_ ? 8 : hw_.most_postponed; }
+  std::uint32_t allowed() const { return !hw_.any_bank || in_use_ ? hw_.most_postponed : 0; }
 
   const RefreshHardware hw_;
   const std::uint32_t interval_, banks_;

@@ -126,7 +126,7 @@ DramConfig random_config(std::uint32_t index) {
   c.back_end_ns = below(3) * 10;
   c.refresh = below(8) == 0 ? RefreshMode::kOff
                             : (below(2) ? RefreshMode::kAllBank : RefreshMode::kPerBank);
-  c.refresh_postpone_max = below(9);
+  c.refresh_postpone_max = static_cast<std::int32_t>(below(10)) - 1;
   c.power_down_idle_cycles = below(2) * (1 + below(200));
   c.self_refresh_idle_cycles = below(2) * (c.power_down_idle_cycles + 1 + below(3000));
   return c;

@@ -207,6 +207,19 @@ TEST_CASE(
   CHECK(constraint_of(O::kAny, {5, 0, 5}) == "refreshed again before others");
 }
 
+TEST_CASE("trace checker: self-refresh begins the device's count of banks again") {
+  for (const std::uint8_t bank : {std::uint8_t{0}, std::uint8_t{1}}) {
+    TraceChecker checker = make_checker(RefreshMode::kPerBank);
+    for (const Step& step : std::vector<Step>{
+             {0, C::kRefreshBank}, {390, C::kSelfRefreshEnter}, {500, C::kSelfRefreshExit}}) {
+      CHECK_FALSE(checker.check(record(step)));
+    }
+    const auto found = checker.check(record({800, C::kRefreshBank, 0, bank}));
+    CHECK(found.has_value() == (bank == 1));
+    if (found) CHECK(found->constraint == "refresh out of turn");
+  }
+}
+
 TEST_CASE("trace checker: as many per-bank refreshes may be postponed as all-bank ones cover") {
   // Nine all-bank intervals of eight banks, and the one that passes.
   for (const std::uint64_t intervals : {9u * 8u, 9u * 8u + 1u}) {
