@@ -16,7 +16,6 @@ QueuedChannel::QueuedChannel(const DramConfig& config, const Memspec& memspec, s
       high_watermark_(config.write_high_watermark),
       low_watermark_(config.write_low_watermark),
       age_cap_(config.age_cap_cycles),
-      rcd_(memspec.timing_cycles.rcd),
       sink_(sink),
       device_(memspec, DerivedTiming(memspec, config.write_latency_set, config.read_strobe),
               config.ranks),
@@ -181,7 +180,8 @@ QueuedChannel::Work QueuedChannel::work_of(const RequestQueue& queue, std::uint3
         request.direction == Direction::kRead ? RequestCommand::kRead : RequestCommand::kWrite;
   else
     work.command = open_row == kNoRow ? RequestCommand::kActivate : RequestCommand::kPrecharge;
-  work.wasted_within = work.command == RequestCommand::kActivate ? rcd_ : 0;
+  if (work.command == RequestCommand::kActivate)
+    work.wasted_within = device_.derived().activate_to_column(request.direction);
   work.column = open_row == request.row;
   work.rank = request.rank;
   work.bank = request.bank;

@@ -108,7 +108,6 @@ class QueuedChannel {
   const std::uint32_t high_watermark_;
   const std::uint32_t low_watermark_;
   const std::uint64_t age_cap_;
-  const std::uint32_t rcd_;
   CommandSink& sink_;
   DeviceTiming device_;
   std::vector<RankMaintenance> maintenance_;

@@ -44,7 +44,7 @@ class RankMaintenance {
   // A request's command to `bank` must be sent before this cycle: refresh goes first from there.
   // 0 in a low-power state.
   std::uint64_t request_limit(std::uint32_t bank) const {
-    return bank == refresh_bank_ ? refresh_bank_limit_ : other_banks_limit_;
+    return bank >> set_bits_ == refresh_set_ ? refresh_set_limit_ : other_banks_limit_;
   }
 
   bool powered_up() const { return state_ == State::kUp; }
@@ -57,14 +57,18 @@ class RankMaintenance {
   enum class State { kUp, kPowerDown, kSelfRefresh };
 
   Candidate refresh(const DeviceTiming& device, std::uint64_t from) const;
+  Candidate refresh_of_set(const DeviceTiming& device, std::uint64_t from) const;
   Candidate sleep(const DeviceTiming& device) const;
-  void choose_bank();
+  std::uint64_t sets_of(std::uint64_t banks) const;
+  void choose_set();
   void set_urgency(std::uint64_t cycle);
   void set_limits();
 
   const RefreshMode mode_;
   const std::uint32_t rank_;
-  const std::uint32_t banks_;
+  const std::uint32_t banks_per_refresh_;
+  const std::uint32_t set_bits_;  // its logarithm
+  const std::uint32_t sets_;  // of banks that a per-bank refresh takes together; most have one bank
   const bool names_bank_;
   const std::uint64_t interval_;
   const std::uint64_t postpone_;  // cycles
@@ -74,12 +78,12 @@ class RankMaintenance {
   State state_ = State::kUp;
   std::uint64_t refresh_due_ = kNever;
   std::uint64_t urgent_from_ = kNever;
-  std::uint32_t turn_ = 0;          // the bank after the last one refreshed
-  std::uint32_t refresh_bank_ = 0;  // whose turn it is, with per-bank refresh
-  std::uint64_t chosen_from_ = 0;   // the cycle from which it has been known to be that one
-  std::uint64_t due_banks_ = 0;     // a bit each: those that have not had their turn
-  std::uint64_t waiting_banks_ = 0;
-  std::uint64_t refresh_bank_limit_ = kNever;
+  std::uint32_t turn_ = 0;         // the set after the last one refreshed
+  std::uint32_t refresh_set_ = 0;  // whose turn it is, with per-bank refresh
+  std::uint64_t chosen_from_ = 0;  // the cycle from which it has been known to be that one
+  std::uint64_t due_sets_ = 0;     // a bit each: those that have not had their turn
+  std::uint64_t waiting_sets_ = 0;
+  std::uint64_t refresh_set_limit_ = kNever;
   std::uint64_t other_banks_limit_ = kNever;
   std::uint64_t idle_since_ = 0;
 };

@@ -21,6 +21,7 @@ struct DramWorkload {
   std::uint32_t banks = 8, rows = 64, longest = 4, writes_percent = 30;
   std::uint32_t gap = 1;  // at most, between two requests
   ChannelHardware hardware = {};
+  bool groups = false;  // bank groups, and what else only some standards have
 };
 
 DramConfig config_of(const ChannelHardware& hw) {
@@ -55,9 +56,28 @@ std::vector<ChannelRequest> requests_of(const DramWorkload& load, const Memspec&
   return requests;
 }
 
+void add_groups(Memspec& memspec) {
+  memspec.organisation.bank_groups = 4;
+  memspec.organisation.beats_per_clock = 4;
+  Memspec::Timing& t = memspec.timing_cycles;
+  t.ccd = 2;
+  t.ccd_l = 5;
+  t.ccd_l_write = 7;
+  t.rrd = 4;
+  t.rrd_l = 9;
+  t.wtr_l = 10;
+  t.rcd_write = 8;
+  t.dqss = 0;
+  t.rtw = 13;
+  t.pbr2pbr = 30;
+  t.pbr2act = 6;
+  check_memspec(memspec, "groups");
+}
+
 void compare(const DramWorkload& load) {
   Memspec memspec = load_memspec(DramConfig{}.memspec);
   if (load.hardware.refresh.any_bank) memspec.refresh_order = RefreshOrder::kAny;
+  if (load.groups) add_groups(memspec);
   std::size_t commands = 0;
   std::uint64_t cycles = 0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -119,6 +139,10 @@ TEST_CASE("clocked reference: DRAM commands") {
            DramWorkload{"one bank", 1, 4, 4, 50},
            DramWorkload{"first come, first served", 8, 64, 4, 30, 1, in_order},
            DramWorkload{"tiny queues", 8, 64, 4, 50, 1, tiny},
+           DramWorkload{"bank groups, light", 8, 64, 4, 30, 200, {}, true},
+           DramWorkload{"bank groups, random rows", 8, 1000, 2, 30, 1, {}, true},
+           DramWorkload{"bank groups, few rows", 8, 2, 8, 30, 1, {}, true},
+           DramWorkload{"bank groups, writes only", 8, 8, 4, 100, 1, {}, true},
        }) {
     compare(load);
   }
@@ -170,6 +194,9 @@ TEST_CASE("clocked reference: DRAM commands with refresh") {
            DramWorkload{"any bank, none late, medium", 8, 64, 4, 30, 40, any_now},
            DramWorkload{"any bank, none late, heavy", 8, 1000, 2, 30, 1, any_now},
            DramWorkload{"any bank, tiny queues", 8, 64, 4, 50, 1, any_tiny},
+           DramWorkload{"any bank, bank groups, medium", 8, 64, 4, 30, 40, any, true},
+           DramWorkload{"any bank, bank groups, heavy", 8, 1000, 2, 30, 1, any_now, true},
+           DramWorkload{"a bank, bank groups, heavy", 8, 2, 8, 30, 1, bank_late, true},
        }) {
     compare(load);
   }
