@@ -117,8 +117,13 @@ int print_benchmarks(const Arguments& a) {
   return status;
 }
 
-std::vector<MemoryRequest> requests_to_replay(const Arguments& a, std::uint64_t capacity_bytes) {
-  std::vector<MemoryRequest> requests = read_request_trace(a.replay);
+std::vector<MemoryRequest> requests_to_replay(const Arguments& a, std::uint64_t capacity_bytes,
+                                              double cycle_ns) {
+  const RequestTrace trace = read_request_trace(a.replay, cycle_ns);
+  const std::vector<MemoryRequest>& requests = trace.requests;
+  if (!trace.form.empty())
+    fmt::print(stderr, "tb_dram: note: {}: a {} trace, its cycles are the memory's of {} ns\n",
+               a.replay, trace.form, cycle_ns);
   if (requests.empty())
     throw InputError(fmt::format("{}: got no request, expected at least one", a.replay));
   for (std::size_t i = 0; i < requests.size(); ++i) {
@@ -153,7 +158,7 @@ int run_requests(const Arguments& a, const DramConfig& config) {
   std::vector<MemoryRequest> requests;
   std::size_t next = 0;
   if (!a.replay.empty()) {
-    requests = requests_to_replay(a, bench.stream.span_bytes);
+    requests = requests_to_replay(a, bench.stream.span_bytes, memspec.clock_period_ns);
     bench.requests = requests.size();
     bench.next = [&] { return requests[next++]; };
   }
@@ -231,7 +236,8 @@ int sc_main(int argc, char* argv[]) {
   line.flag("--speed", a.speed, "requests per wall second");
   line.file("--published", a.published, "data file of the published figures");
   line.one_of({"seq", "rnd", "stride"}, "--stream", a.stream, "measure one stream");
-  line.file("--replay", a.replay, "measure a request trace: ADDRESS R|W [NANOSECONDS [BYTES]]");
+  line.file("--replay", a.replay,
+            "measure a request trace: ADDRESS R|W [NANOSECONDS [BYTES]], DRAMSys's or DRAMsim3's");
   line.whole("--requests", a.requests, 1, kMost, "how many");
   line.whole("--window", a.window, 1, 1 << 20, "outstanding requests");
   line.whole("--bytes", a.bytes, 1, 65536, "of a request");
