@@ -89,6 +89,7 @@ static void visit(ConfigVisitor& v, Memspec::Timing& t) {
 static void visit(ConfigVisitor& v, Memspec::Hot& h) {
   v("refresh_divisor", h.refresh_divisor, in_range(1, 8), "refi and refi_bank are divided by it");
   v("derating_ns", h.derating_ns, in_range(0.0, 10.0), "added to tRCD, tRP, tRAS, tRC and tRRD");
+  v("pbr2pbr_ns", h.pbr2pbr_ns, in_range(0.0, 1000.0), "pbr2pbr when hot; 0: as it is");
 }
 
 static void visit(ConfigVisitor& v, Memspec::Rail& r) {
@@ -151,9 +152,12 @@ bool is_hot(const std::string& name) {
 
 void heat(Memspec& m) {
   constexpr double kRounding = 1e-9;
-  const auto more =
-      static_cast<std::uint32_t>(std::ceil(m.hot.derating_ns / m.clock_period_ns - kRounding));
+  const auto cycles_of = [&](double ns) {
+    return static_cast<std::uint32_t>(std::ceil(ns / m.clock_period_ns - kRounding));
+  };
+  const std::uint32_t more = cycles_of(m.hot.derating_ns);
   Memspec::Timing& t = m.timing_cycles;
+  if (m.hot.pbr2pbr_ns > 0) t.pbr2pbr = cycles_of(m.hot.pbr2pbr_ns);
   for (std::uint32_t* cycles :
        {&t.rcd, &t.rp_bank, &t.rp_all, &t.ras, &t.rc, &t.rrd, &t.rrd_l, &t.rcd_write, &t.pbr2act}) {
     if (*cycles > 0) *cycles += more;

@@ -73,6 +73,7 @@ struct Memspec {
   struct Hot {
     std::uint32_t refresh_divisor = 4;  // of refi and refi_bank
     double derating_ns = 1.875;         // added to tRCD, tRP, tRAS, tRC, tRRD
+    double pbr2pbr_ns = 0;              // where it is another than the cold one
   };
 
   struct Rail {  // mA

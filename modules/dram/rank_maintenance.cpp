@@ -104,8 +104,8 @@ Candidate RankMaintenance::next(const DeviceTiming& device, std::uint64_t wanted
   const auto in_time = [&](const Candidate& c) { return std::max(c.cycle, clock) < wanted_from; };
   Candidate best;
   if (refresh_due_ != kNever) {
-    best = refresh(device, refresh_due_);
-    if (!in_time(best)) best = refresh(device, urgent_from_);
+    best = refresh(device, std::max(refresh_due_, clock));
+    if (!in_time(best)) best = refresh(device, std::max(urgent_from_, clock));
   }
   const Candidate low_power = sleep(device);
   // Not while a refresh is due: it would be left again at once.

@@ -189,16 +189,26 @@ class ClockedChannel {
     return true;
   }
   bool refresh_bank() {
-    Bank& b = banks_[refresh_.bank()];
-    const Command command = b.row != kNoRow ? Command::kPrecharge : Command::kRefreshBank;
-    if (!legal(command, refresh_.bank())) return false;
-    sent_.push_back({now_, command, refresh_.bank(), 0, 0});
-    if (command == Command::kPrecharge) {
+    bool open = false;
+    for (std::uint32_t bank = refresh_.first_bank(); bank < refresh_.end_bank(); ++bank) {
+      Bank& b = banks_[bank];
+      if (b.row == kNoRow) continue;
+      open = true;
+      if (!legal(Command::kPrecharge, bank)) continue;
       b.row = kNoRow;
       b.precharged = now_;
+      sent_.push_back({now_, Command::kPrecharge, bank, 0, 0});
       return true;
     }
-    b.refreshed = refreshed_bank_ = now_;
+    if (open) return false;
+    for (std::uint32_t bank = refresh_.first_bank(); bank < refresh_.end_bank(); ++bank) {
+      if (!legal(Command::kRefreshBank, bank)) return false;
+    }
+    for (std::uint32_t bank = refresh_.first_bank(); bank < refresh_.end_bank(); ++bank) {
+      banks_[bank].refreshed = now_;
+    }
+    refreshed_bank_ = now_;
+    sent_.push_back({now_, Command::kRefreshBank, refresh_.first_bank(), 0, 0});
     count_activate();
     refresh_.refreshed();
     return true;

@@ -59,6 +59,7 @@ std::vector<ChannelRequest> requests_of(const DramWorkload& load, const Memspec&
 void add_groups(Memspec& memspec) {
   memspec.organisation.bank_groups = 4;
   memspec.organisation.beats_per_clock = 4;
+  memspec.organisation.banks_per_refresh = 2;
   Memspec::Timing& t = memspec.timing_cycles;
   t.ccd = 2;
   t.ccd_l = 5;
@@ -196,6 +197,7 @@ TEST_CASE("clocked reference: DRAM commands with refresh") {
            DramWorkload{"any bank, tiny queues", 8, 64, 4, 50, 1, any_tiny},
            DramWorkload{"any bank, bank groups, medium", 8, 64, 4, 30, 40, any, true},
            DramWorkload{"any bank, bank groups, heavy", 8, 1000, 2, 30, 1, any_now, true},
+           DramWorkload{"any bank, bank groups, late", 8, 64, 4, 30, 1, any_late, true},
            DramWorkload{"a bank, bank groups, heavy", 8, 2, 8, 30, 1, bank_late, true},
        }) {
     compare(load);
