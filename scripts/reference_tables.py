@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import difflib
+import json
 import os
 import pathlib
 import re
@@ -189,10 +190,51 @@ def memspec_table(command: str) -> str:
     return table(["key", MEMSPEC, "allowed", "unit", "meaning"], rows)
 
 
+def shipped_memspecs() -> str:
+    """What dram.memspec may name."""
+    rows = []
+    for path in sorted((REPOSITORY / "modules/dram/memspecs").glob("*.json")):
+        memspec = json.loads(path.read_text())
+        of = {
+            "beats_per_clock": 2,
+            "pseudo_channels": 1,
+            "bank_groups": 1,
+            "banks_per_refresh": 1,
+            **memspec["organisation"],
+        }
+        bits_per_ns = of["width_bits"] * of["beats_per_clock"] / memspec["clock_period_ns"]
+        numbers = (
+            of["pseudo_channels"],
+            of["width_bits"],
+            of["burst_length"] * of["width_bits"] // 8,
+            of["banks"],
+            of["bank_groups"],
+            of["banks_per_refresh"],
+        )
+        rows.append(
+            [
+                f"`{path.stem}`",
+                memspec["description"],
+                f"{of['pseudo_channels'] * bits_per_ns / 8:.2f}",
+                *map(str, numbers),
+                f"`{memspec['default_currents']}`",
+            ]
+        )
+    return table(
+        [
+            *("memspec", "device", "GB/s a channel", "data buses", "bits each", "burst, bytes"),
+            *("banks", "bank groups", "banks refreshed together", "currents"),
+        ],
+        rows,
+    )
+
+
 def memory_page(command: str, exact: Described) -> str:
     return (
         f"# The memory: keys\n\n{WRITTEN_BY}"
         + key_table({"default": exact}, lambda key: key.startswith(MEMORY))
+        + "## Shipped memspecs\n\n"
+        + shipped_memspecs()
         + "## Keys of a memspec\n\n"
         f"`streaminggs describe --memspec {MEMSPEC}` prints them as a template with comments.\n\n"
         + memspec_table(command)

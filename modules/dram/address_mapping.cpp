@@ -20,11 +20,16 @@ std::uint32_t log2_of(std::uint64_t n) {
 }  // namespace
 
 AddressMapping::AddressMapping(const DramConfig& config, const Memspec& memspec) {
-  constexpr std::array<const char*, kFields> kNames = {"row", "rank", "bank", "column", "channel"};
+  constexpr std::array<const char*, kFields> kNames = {"row",   "rank",   "bank",
+                                                       "group", "column", "channel"};
+  group_bits_ = log2_of(memspec.organisation.bank_groups);
   const std::array<std::uint32_t, kFields> sizes = {
-      log2_of(memspec.organisation.rows), log2_of(config.ranks),
-      log2_of(memspec.organisation.banks), log2_of(memspec.bursts_per_row()),
-      log2_of(config.channels)};
+      log2_of(memspec.organisation.rows),
+      log2_of(config.ranks),
+      log2_of(memspec.organisation.banks) - group_bits_,
+      group_bits_,
+      log2_of(memspec.bursts_per_row()),
+      log2_of(config.buses(memspec))};
   const auto refuse = [&](const std::string& expected) {
     throw InputError(fmt::format("dram.mapping: got '{}', expected {}", config.mapping, expected));
   };
@@ -43,7 +48,7 @@ AddressMapping::AddressMapping(const DramConfig& config, const Memspec& memspec)
     const std::string name = token.substr(0, dot);
     const auto found = std::find(kNames.begin(), kNames.end(), name);
     if (found == kNames.end())
-      refuse(fmt::format("fields row, rank, bank, column, channel; '{}' is none", token));
+      refuse(fmt::format("fields row, rank, bank, group, column, channel; '{}' is none", token));
     const auto field = static_cast<Field>(found - kNames.begin());
     std::uint32_t bits = 0;
     if (dot != std::string::npos) {
@@ -76,7 +81,7 @@ AddressMapping::AddressMapping(const DramConfig& config, const Memspec& memspec)
   burst_bits_ = log2_of(memspec.burst_bytes());
   bank_mask_ = memspec.organisation.banks - 1;
   xor_banks_ = config.bank_hash == BankHash::kXor;
-  capacity_bytes_ = memspec.rank_bytes() * config.ranks * config.channels;
+  capacity_bytes_ = memspec.rank_bytes() * config.ranks * config.buses(memspec);
   run_bytes_ = memspec.burst_bytes();
   for (const Piece& piece : pieces_) {
     if (piece.field != kColumn) break;
@@ -88,7 +93,9 @@ std::uint64_t AddressMapping::encode(const DramAddress& place) const {
   std::uint32_t field[kFields];
   field[kRow] = place.row;
   field[kRank] = place.rank;
-  field[kBank] = xor_banks_ ? place.bank ^ (place.row & bank_mask_) : place.bank;
+  const std::uint32_t bank = xor_banks_ ? place.bank ^ (place.row & bank_mask_) : place.bank;
+  field[kBank] = bank >> group_bits_;
+  field[kGroup] = bank & ((1u << group_bits_) - 1);
   field[kColumn] = place.burst;
   field[kChannel] = place.channel;
   std::uint64_t address = 0;

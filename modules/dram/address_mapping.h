@@ -20,8 +20,9 @@ struct DramAddress {
 
 class AddressMapping {
  public:
-  // InputError when config.mapping is not made of the fields row, rank, bank, column and channel,
-  // or does not take exactly their sizes.
+  // InputError when config.mapping is not made of the fields row, rank, bank, group, column and
+  // channel, or does not take exactly their sizes. A bank's number is that in its group, then the
+  // group's; a channel's is of pseudo-channels where the memspec has some.
   AddressMapping(const DramConfig& config, const Memspec& memspec);
 
   DramAddress decode(std::uint64_t address) const {
@@ -31,8 +32,9 @@ class AddressMapping {
       field[piece.field] |= (static_cast<std::uint32_t>(rest) & piece.mask) << piece.to;
       rest >>= piece.bits;
     }
-    if (xor_banks_) field[kBank] ^= field[kRow] & bank_mask_;
-    return {field[kChannel], field[kRank], field[kBank], field[kRow], field[kColumn]};
+    std::uint32_t bank = field[kBank] << group_bits_ | field[kGroup];
+    if (xor_banks_) bank ^= field[kRow] & bank_mask_;
+    return {field[kChannel], field[kRank], bank, field[kRow], field[kColumn]};
   }
 
   // The inverse: the address of a burst's first byte.
@@ -45,7 +47,7 @@ class AddressMapping {
   std::uint32_t run_bytes() const { return run_bytes_; }
 
  private:
-  enum Field { kRow, kRank, kBank, kColumn, kChannel, kFields };
+  enum Field { kRow, kRank, kBank, kGroup, kColumn, kChannel, kFields };
   struct Piece {  // from the least significant
     Field field;
     std::uint32_t bits;
@@ -55,6 +57,7 @@ class AddressMapping {
 
   std::vector<Piece> pieces_;
   std::uint32_t burst_bits_ = 0;
+  std::uint32_t group_bits_ = 0;
   std::uint32_t bank_mask_ = 0;
   bool xor_banks_ = false;
   std::uint64_t capacity_bytes_ = 0;

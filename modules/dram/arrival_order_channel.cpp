@@ -40,7 +40,7 @@ std::uint64_t ArrivalOrderChannel::serve(const ChannelRequest& request, std::uin
     outcome = RowOutcome::kHit;
   }
   last_column_ = std::max(last_column_, at);
-  maintenance_[request.rank].on_waiting(std::uint64_t{1} << request.bank, arrival);
+  maintenance_[request.rank].on_waiting(std::uint64_t{1} << request.bank, cycle);
   hand_out_before(arrival);
   return at + (reads ? device_.derived().read_data_end : device_.derived().write_data_end) +
          path_.back_end(request.direction);
@@ -57,7 +57,7 @@ void ArrivalOrderChannel::maintain(std::uint64_t cycle) {
     // The ranks' wishes in the order of time: slots of the command bus are taken in that order.
     Candidate first;
     for (const RankMaintenance& rank : maintenance_) {
-      Candidate next = rank.next(device_, kNever);
+      Candidate next = rank.next(device_, kNever, maintained_until_);
       if (next.cycle != kNever) next.cycle = std::max(next.cycle, maintained_until_);
       const bool allowed = next.cycle < cycle || rank.refresh_due() <= busy_until;
       if (allowed && next.cycle < first.cycle) first = next;
@@ -72,7 +72,7 @@ void ArrivalOrderChannel::maintain(std::uint64_t cycle) {
 
 void ArrivalOrderChannel::wake(std::uint32_t rank, std::uint64_t cycle) {
   while (!maintenance_[rank].powered_up()) {
-    const Candidate exit = maintenance_[rank].next(device_, cycle);
+    const Candidate exit = maintenance_[rank].next(device_, cycle, 0);
     ChannelRequest none;
     none.rank = rank;
     issue(exit.command, none, 0, exit.cycle);

@@ -17,9 +17,15 @@ DerivedTiming::DerivedTiming(const Memspec& memspec, WriteLatencySet set, ReadSt
   const std::uint32_t strobe_delay = strobe == ReadStrobe::kMin ? t.dqsck_min : t.dqsck_max;
   const std::uint32_t latest_read_end = t.read_latency + t.dqsck_max + burst;
   read_data_end = t.read_latency + strobe_delay + burst;
-  write_data_end = write_latency + 1 + burst;
-  read_to_write = latest_read_end + 1 - write_latency;
+  write_data_end = write_latency + t.dqss + burst;
+  read_to_write = t.rtw > 0 ? t.rtw : latest_read_end + 1 - write_latency;
   write_to_read = write_data_end + t.wtr;
+  write_to_read_group = write_data_end + t.wtr_l;
+  write_to_write_group = t.ccd_l_write > 0 ? t.ccd_l_write : t.ccd_l;
+  activate_to_read = t.rcd;
+  activate_to_write = t.rcd_write > 0 ? t.rcd_write : t.rcd;
+  refresh_to_refresh = t.pbr2pbr > 0 ? t.pbr2pbr : t.rfc_bank;
+  refresh_to_activate = t.pbr2act > 0 ? t.pbr2act : t.rrd;
   write_to_precharge = write_data_end + t.wr;
   read_to_read_other_rank = burst + t.rtrs;
   read_to_write_other_rank = latest_read_end + t.rtrs - write_latency;
@@ -34,6 +40,8 @@ DeviceTiming::DeviceTiming(const Memspec& memspec, const DerivedTiming& derived,
     : t_(memspec.timing_cycles),
       d_(derived),
       banks_(memspec.organisation.banks),
+      groups_(memspec.organisation.bank_groups),
+      banks_per_refresh_(memspec.organisation.banks_per_refresh),
       bank_(std::size_t{ranks} * banks_),
       ranks_(ranks) {}
 
@@ -85,22 +93,31 @@ void DeviceTiming::issue(const CommandRecord& r) {
   }
 }
 
-void DeviceTiming::count_activation(Rank& r, std::uint64_t cycle) {
+void DeviceTiming::count_activation(Rank& r, std::uint64_t cycle, std::uint32_t to_next) {
   r.faw[r.faw_next] = cycle + t_.faw;
   r.faw_next = (r.faw_next + 1) & 3;
-  raise(r.earliest[kAct], std::max(cycle + t_.rrd, r.faw[r.faw_next]));
+  raise(r.earliest[kAct], std::max(cycle + to_next, r.faw[r.faw_next]));
   raise(r.power_down, cycle + 1);
+}
+
+void DeviceTiming::delay_group(RequestCommand command, std::uint32_t rank, std::uint32_t bank,
+                               std::uint64_t ready) {
+  if (groups_ == 1) return;
+  for (std::uint32_t b = bank % groups_; b < banks_; b += groups_)
+    raise(bank_of(rank, b).earliest[static_cast<std::size_t>(command)], ready);
 }
 
 void DeviceTiming::activate(std::uint32_t rank, std::uint32_t bank, std::uint32_t row,
                             std::uint64_t cycle) {
   Bank& b = bank_of(rank, bank);
   b.open_row = row;
-  b.earliest[kRd] = b.earliest[kWr] = cycle + t_.rcd;
+  raise(b.earliest[kRd], cycle + d_.activate_to_read);
+  raise(b.earliest[kWr], cycle + d_.activate_to_write);
   raise(b.earliest[kPre], cycle + t_.ras);
   raise(b.earliest[kAct], cycle + t_.rc);
   ++ranks_[rank].open_banks;
-  count_activation(ranks_[rank], cycle);
+  count_activation(ranks_[rank], cycle, t_.rrd);
+  delay_group(RequestCommand::kActivate, rank, bank, cycle + t_.rrd_l);
 }
 
 void DeviceTiming::read(std::uint32_t rank, std::uint32_t bank, std::uint64_t cycle) {
@@ -112,6 +129,7 @@ void DeviceTiming::read(std::uint32_t rank, std::uint32_t bank, std::uint64_t cy
   Rank& r = ranks_[rank];
   r.earliest[kRd] = cycle + t_.ccd;
   r.earliest[kWr] = cycle + d_.read_to_write;
+  delay_group(RequestCommand::kRead, rank, bank, cycle + t_.ccd_l);
   raise(r.power_down, cycle + d_.read_to_power_down);
 }
 
@@ -124,6 +142,8 @@ void DeviceTiming::write(std::uint32_t rank, std::uint32_t bank, std::uint64_t c
   Rank& r = ranks_[rank];
   r.earliest[kRd] = cycle + d_.write_to_read;
   r.earliest[kWr] = cycle + t_.ccd;
+  delay_group(RequestCommand::kRead, rank, bank, cycle + d_.write_to_read_group);
+  delay_group(RequestCommand::kWrite, rank, bank, cycle + d_.write_to_write_group);
   raise(r.power_down, cycle + d_.write_to_precharge);
 }
 
@@ -161,10 +181,12 @@ void DeviceTiming::refresh_all(std::uint32_t rank, std::uint64_t cycle) {
 }
 
 void DeviceTiming::refresh_bank(std::uint32_t rank, std::uint32_t bank, std::uint64_t cycle) {
-  raise(bank_of(rank, bank).earliest[kAct], cycle + t_.rfc_bank);
+  for (std::uint32_t b = bank; b < bank + banks_per_refresh_; ++b)
+    raise(bank_of(rank, b).earliest[kAct], cycle + t_.rfc_bank);
   Rank& r = ranks_[rank];
-  raise(r.refresh, cycle + t_.rfc_bank);
-  count_activation(r, cycle);  // JESD209-3 counts a per-bank refresh towards tRRD and tFAW
+  raise(r.refresh, cycle + d_.refresh_to_refresh);
+  // JESD209-3 counts a per-bank refresh towards tRRD and tFAW.
+  count_activation(r, cycle, d_.refresh_to_activate);
   raise(r.power_down, cycle + t_.rfc_bank);
 }
 

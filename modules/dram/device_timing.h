@@ -10,6 +10,7 @@
 #include "modules/dram/command.h"
 #include "modules/dram/dram_config.h"
 #include "modules/dram/memspec.h"
+#include "tlm/traffic_counters.h"
 
 namespace sgs {
 
@@ -17,17 +18,27 @@ namespace sgs {
 struct DerivedTiming {
   DerivedTiming(const Memspec& memspec, WriteLatencySet set, ReadStrobe strobe);
 
-  std::uint32_t burst;                     // BL/2 on the data bus
+  std::uint32_t burst;                     // on the data bus; BL/2 here and below
   std::uint32_t write_latency;             // WL of the chosen set
   std::uint32_t read_data_end;             // RL + tDQSCK + BL/2: command to last datum
-  std::uint32_t write_data_end;            // WL + 1 + BL/2; the 1 is tDQSS
-  std::uint32_t read_to_write;             // RL + tDQSCKmax + BL/2 + 1 - WL
-  std::uint32_t write_to_read;             // WL + 1 + BL/2 + tWTR
-  std::uint32_t write_to_precharge;        // WL + 1 + BL/2 + tWR
+  std::uint32_t write_data_end;            // WL + tDQSS + BL/2
+  std::uint32_t read_to_write;             // tRTW, or RL + tDQSCKmax + BL/2 + 1 - WL
+  std::uint32_t write_to_read;             // WL + tDQSS + BL/2 + tWTR
+  std::uint32_t write_to_read_group;       // likewise of a bank group
+  std::uint32_t write_to_write_group;      // tCCD_L_WR, or tCCD_L
+  std::uint32_t write_to_precharge;        // WL + tDQSS + BL/2 + tWR
+  std::uint32_t activate_to_read;          // tRCD
+  std::uint32_t activate_to_write;         // likewise of writes
+  std::uint32_t refresh_to_refresh;        // tpbR2pbR, or tRFCpb
+  std::uint32_t refresh_to_activate;       // tpbR2act, or tRRD
   std::uint32_t read_to_read_other_rank;   // BL/2 + tRTRS
   std::uint32_t read_to_write_other_rank;  // RL + tDQSCKmax + BL/2 + tRTRS - WL
-  std::uint32_t write_to_read_other_rank;  // WL + 1 + BL/2 + tRTRS - RL - tDQSCKmin, at least 1
+  std::uint32_t write_to_read_other_rank;  // write_data_end + tRTRS - RL - tDQSCKmin, at least 1
   std::uint32_t read_to_power_down;        // RL + tDQSCKmax + BL/2 + 1
+
+  std::uint32_t activate_to_column(Direction direction) const {
+    return direction == Direction::kRead ? activate_to_read : activate_to_write;
+  }
 };
 
 enum class RequestCommand : std::uint8_t { kActivate, kRead, kWrite, kPrecharge };
@@ -58,7 +69,7 @@ class DeviceTiming {
   std::uint64_t earliest_precharge_all(std::uint32_t rank) const;
   // All banks must be closed.
   std::uint64_t earliest_refresh_all(std::uint32_t rank) const;
-  // The bank must be closed.
+  // The bank must be closed, and those that are refreshed with it.
   std::uint64_t earliest_refresh_bank(std::uint32_t rank, std::uint32_t bank) const {
     return std::max(earliest(RequestCommand::kActivate, rank, bank), ranks_[rank].refresh);
   }
@@ -110,13 +121,18 @@ class DeviceTiming {
   const Bank& bank_of(std::uint32_t rank, std::uint32_t bank) const {
     return bank_[rank * banks_ + bank];
   }
-  void count_activation(Rank& rank, std::uint64_t cycle);
+  void count_activation(Rank& rank, std::uint64_t cycle, std::uint32_t to_next);
+  // Banks of the group of `bank` may not have the command before `ready`.
+  void delay_group(RequestCommand command, std::uint32_t rank, std::uint32_t bank,
+                   std::uint64_t ready);
   void wake(Rank& rank, std::uint64_t ready);
   static void raise(std::uint64_t& to, std::uint64_t at_least) { to = std::max(to, at_least); }
 
   const Memspec::Timing t_;
   const DerivedTiming d_;
   const std::uint32_t banks_;
+  const std::uint32_t groups_;
+  const std::uint32_t banks_per_refresh_;
   std::vector<Bank> bank_;
   std::vector<Rank> ranks_;
 };

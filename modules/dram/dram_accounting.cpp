@@ -9,9 +9,9 @@ namespace sgs {
 
 DramController::Commands::Commands(const Memspec& memspec, const DramConfig& config)
     : activity(memspec, config) {
-  counts.channels.resize(config.channels);
+  counts.channels.resize(config.buses(memspec));
   counts.clock_period_ns = memspec.clock_period_ns;
-  counts.peak_gb_per_s = memspec.peak_gb_per_s() * config.channels;
+  counts.peak_gb_per_s = memspec.peak_gb_per_s() * config.buses(memspec);
   counts.burst_bytes = memspec.burst_bytes();
   counts.burst_cycles = memspec.burst_cycles();
 }

@@ -9,8 +9,19 @@
 
 namespace sgs {
 
+std::uint32_t DramConfig::buses(const Memspec& device) const {
+  return channels * device.organisation.pseudo_channels;
+}
+
 double DramConfig::io_pj_per_bit_of(const Memspec& device) const {
   return io_pj_per_bit.value_or(device.io_pj_per_bit);
+}
+
+std::uint32_t DramConfig::refreshes_postponed(const Memspec& device) const {
+  if (refresh_postpone_max >= 0) return static_cast<std::uint32_t>(refresh_postpone_max);
+  const bool device_names_bank =
+      refresh != RefreshMode::kPerBank || device.refresh_order == RefreshOrder::kInTurn;
+  return device_names_bank ? 0 : device.refresh_postpone_limit;
 }
 
 void DramConfig::validate() const {
@@ -37,6 +48,10 @@ void DramConfig::validate() const {
   if (ranks * device.organisation.banks > 64)
     refuse("ranks", std::to_string(ranks),
            fmt::format("at most 64 banks a channel; each rank has {}", device.organisation.banks));
+  if (refresh_postpone_max > static_cast<std::int32_t>(device.refresh_postpone_limit))
+    refuse("refresh_postpone_max", std::to_string(refresh_postpone_max),
+           fmt::format("at most the memspec's refresh_postpone_limit {}",
+                       device.refresh_postpone_limit));
   if (!current_set.empty() && device.currents.count(current_set) == 0) {
     std::string known;
     for (const auto& set : device.currents) known += (known.empty() ? "" : ", ") + set.first;

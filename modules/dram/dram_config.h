@@ -22,8 +22,8 @@ struct DramConfig {
   std::string memspec = "lpddr3_1600_4gb";
   std::uint32_t channels = 4;
   std::uint32_t ranks = 1;
-  // 256 contiguous bytes lie on a channel.
-  std::string mapping = "row:rank:bank:column:channel:column.3";
+  // Eight contiguous bursts, as a rule 256 bytes, lie on a channel.
+  std::string mapping = "row:rank:bank:column:group:channel:column.3";
   BankHash bank_hash = BankHash::kNone;
   WriteLatencySet write_latency_set = WriteLatencySet::kA;
   ReadStrobe read_strobe = ReadStrobe::kMax;
@@ -41,14 +41,19 @@ struct DramConfig {
   double back_end_ns = 10;
 
   RefreshMode refresh = RefreshMode::kPerBank;  // LPDDR has it; the other banks go on
-  std::uint32_t refresh_postpone_max = 0;
+  std::int32_t refresh_postpone_max = -1;       // negative: by the memspec
   std::uint32_t power_down_idle_cycles = 0;
   std::uint32_t self_refresh_idle_cycles = 0;
 
   std::string current_set;
   std::optional<double> io_pj_per_bit;  // none: the memspec's
 
+  // Data buses: pseudo-channels of all channels.
+  std::uint32_t buses(const Memspec& device) const;
   double io_pj_per_bit_of(const Memspec& device) const;
+  // Without a value of its own none where the device names the bank of a refresh, else the
+  // memspec's limit.
+  std::uint32_t refreshes_postponed(const Memspec& device) const;
 
   // InputError naming the key, what it is and what is allowed. Loads the memspec.
   void validate() const;
@@ -56,11 +61,12 @@ struct DramConfig {
 
 inline void visit(ConfigVisitor& v, DramConfig& c) {
   v("memspec", c.memspec, "device: name of a shipped memspec or path of a JSON file");
-  v("channels", c.channels, in_range(1, 16), "independent channels, a power of two");
+  v("channels", c.channels, in_range(1, 16),
+    "independent channels, a power of two; the memspec may divide each into pseudo-channels");
   v("ranks", c.ranks, in_range(1, 4), "ranks a channel, a power of two");
   v("mapping", c.mapping,
     "address fields from most to least significant, a burst's bytes below the last; column.3: "
-    "three of the column's bits, column: those that are left");
+    "three of the column's bits, column: those that are left; group: the bank group");
   v("bank_hash", c.bank_hash, names<BankHash>({{"none", BankHash::kNone}, {"xor", BankHash::kXor}}),
     "xor: bank bits are XORed with the lowest row bits");
   v("write_latency_set", c.write_latency_set,
@@ -96,8 +102,9 @@ inline void visit(ConfigVisitor& v, DramConfig& c) {
                         {"all_bank", RefreshMode::kAllBank},
                         {"per_bank", RefreshMode::kPerBank}}),
     "kind of refresh");
-  v("refresh_postpone_max", c.refresh_postpone_max, in_range(0, 8),
-    "refresh commands that may be owed while requests wait");
+  v("refresh_postpone_max", c.refresh_postpone_max, in_range(-1, 8),
+    "refresh commands that may be owed while requests wait; negative: 0 where the device names the "
+    "bank, else the memspec's limit");
   v("power_down_idle_cycles", c.power_down_idle_cycles, in_range(0, 100000000),
     "idle time of a rank before power-down; 0: never");
   v("self_refresh_idle_cycles", c.self_refresh_idle_cycles, in_range(0, 100000000),

@@ -31,7 +31,7 @@ DramController::DramController(const sc_core::sc_module_name& name, const DramCo
   socket.register_nb_transport_fw(this, &DramController::nb_transport_fw);
   socket.register_b_transport(this, &DramController::b_transport);
   socket.register_transport_dbg(this, &DramController::transport_dbg);
-  for (std::uint32_t c = 0; c < config_.channels; ++c) {
+  for (std::uint32_t c = 0; c < config_.buses(memspec_); ++c) {
     channels_.emplace_back(config_, memspec_, static_cast<std::uint8_t>(c), commands_);
     sc_core::sc_spawn_options options;
     options.spawn_method();

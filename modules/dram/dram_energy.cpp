@@ -25,7 +25,7 @@ ActivityMeter::ActivityMeter(const Memspec& memspec, const DramConfig& config)
       write_to_precharge_(
           DerivedTiming(memspec, config.write_latency_set, config.read_strobe).write_to_precharge),
       ranks_per_channel_(config.ranks),
-      state_(std::size_t{config.channels} * config.ranks),
+      state_(std::size_t{config.buses(memspec)} * config.ranks),
       activated_(state_.size() * memspec.organisation.banks),
       banks_(memspec.organisation.banks) {}
 
@@ -138,7 +138,7 @@ struct EventEnergy {
     read = cycle * (i.idd4r - i.idd3n) * m.burst_cycles();
     write = cycle * (i.idd4w - i.idd3n) * m.burst_cycles();
     refresh_all = cycle * (i.idd5 - i.idd3n) * t.rfc_all;
-    refresh_bank = refresh_all / m.organisation.banks;
+    refresh_bank = refresh_all / m.refresh_sets();
   }
   double cycle, activate, read, write, refresh_all, refresh_bank;
 };

@@ -16,7 +16,6 @@ QueuedChannel::QueuedChannel(const DramConfig& config, const Memspec& memspec, s
       high_watermark_(config.write_high_watermark),
       low_watermark_(config.write_low_watermark),
       age_cap_(config.age_cap_cycles),
-      rcd_(memspec.timing_cycles.rcd),
       sink_(sink),
       device_(memspec, DerivedTiming(memspec, config.write_latency_set, config.read_strobe),
               config.ranks),
@@ -24,8 +23,8 @@ QueuedChannel::QueuedChannel(const DramConfig& config, const Memspec& memspec, s
       paging_(make_page_policy(config, config.ranks * memspec.organisation.banks)),
       reads_(config.read_queue_entries, config.ranks * memspec.organisation.banks),
       writes_(config.write_queue_entries, config.ranks * memspec.organisation.banks),
-      waiting_(config.ranks),
-      wanted_from_(config.ranks, kNever),
+      rank_requests_(config.ranks),
+      waiting_(std::size_t{config.ranks} * memspec.organisation.banks),
       outcome_(std::size_t{config.ranks} * memspec.organisation.banks, RowOutcome::kMiss) {
   for (std::vector<Work>& works : works_) works.resize(outcome_.size());
   for (std::uint32_t rank = 0; rank < config.ranks; ++rank)
@@ -53,15 +52,31 @@ void QueuedChannel::push(const ChannelRequest& request, std::uint64_t cycle) {
   entry.ready = ready;
   entry.order = next_order_++;
   queue(request.direction).push(entry, bank, device_.open_row(request.rank, request.bank));
-  if (waiting_[request.rank]++ == 0) wanted_from_[request.rank] = ready;
+  // The first request of a rank wakes it.
+  if (wanted_from(request.rank) == kNever) best_known_ = false;
+  rank_requests_[request.rank].on_the_way.push({ready, bank});
   renew_work(bank);
-  if (tell_maintenance(request.rank, cycle)) best_known_ = false;
   revise_best(request, bank);
 }
 
+void QueuedChannel::let_through(std::uint32_t rank) {
+  RankRequests& requests = rank_requests_[rank];
+  const Arrival arrival = requests.on_the_way.front();
+  requests.on_the_way.pop();
+  if (requests.waiting++ == 0) requests.wanted_from = arrival.ready;
+  if (waiting_[arrival.bank]++ > 0) return;
+  waiting_banks_ |= std::uint64_t{1} << arrival.bank;
+  if (tell_maintenance(rank, arrival.ready)) best_known_ = false;
+}
+
+std::uint64_t QueuedChannel::wanted_from(std::uint32_t rank) const {
+  const RankRequests& requests = rank_requests_[rank];
+  if (requests.waiting > 0) return requests.wanted_from;
+  return requests.on_the_way.empty() ? kNever : requests.on_the_way.front().ready;
+}
+
 bool QueuedChannel::tell_maintenance(std::uint32_t rank, std::uint64_t cycle) {
-  const std::uint64_t banks =
-      (reads_.banks_in_use() | writes_.banks_in_use()) >> (rank * device_.banks());
+  const std::uint64_t banks = waiting_banks_ >> (rank * device_.banks());
   return maintenance_[rank].on_waiting(banks & (~std::uint64_t{0} >> (64 - device_.banks())),
                                        cycle);
 }
@@ -110,12 +125,20 @@ Direction QueuedChannel::wanted_direction() const {
 }
 
 const Candidate& QueuedChannel::best() {
-  if (best_known_) return best_;
-  considered_ = wanted_direction();
-  adopt(best_of(queue(considered_).banks_in_use(), Choice{}));
-  consider_maintenance();
-  best_known_ = true;
-  return best_;
+  while (true) {
+    if (!best_known_) {
+      considered_ = wanted_direction();
+      adopt(best_of(queue(considered_).banks_in_use(), Choice{}));
+      consider_maintenance();
+      best_known_ = true;
+    }
+    const auto through = std::find_if(
+        rank_requests_.begin(), rank_requests_.end(), [this](const RankRequests& requests) {
+          return !requests.on_the_way.empty() && requests.on_the_way.front().ready <= best_.cycle;
+        });
+    if (through == rank_requests_.end()) return best_;
+    let_through(static_cast<std::uint32_t>(through - rank_requests_.begin()));
+  }
 }
 
 void QueuedChannel::adopt(const Choice& choice) {
@@ -133,9 +156,9 @@ void QueuedChannel::adopt(const Choice& choice) {
 
 void QueuedChannel::revise_best(const ChannelRequest& added, std::uint32_t bank) {
   if (!best_known_) return;
-  // A first request wakes its rank, and one for the chosen bank may change that choice.
+  // One for the chosen bank may change that choice.
   const bool disturbs = best_entry_ == RequestQueue::kNone || best_choice_.flat_bank == bank;
-  if (waiting_[added.rank] == 1 || disturbs || wanted_direction() != considered_) {
+  if (disturbs || wanted_direction() != considered_) {
     best_known_ = false;
   } else if (added.direction == considered_) {
     const Choice choice = best_of(std::uint64_t{1} << bank, best_choice_);
@@ -157,7 +180,8 @@ QueuedChannel::Work QueuedChannel::work_of(const RequestQueue& queue, std::uint3
         request.direction == Direction::kRead ? RequestCommand::kRead : RequestCommand::kWrite;
   else
     work.command = open_row == kNoRow ? RequestCommand::kActivate : RequestCommand::kPrecharge;
-  work.wasted_within = work.command == RequestCommand::kActivate ? rcd_ : 0;
+  if (work.command == RequestCommand::kActivate)
+    work.wasted_within = device_.derived().activate_to_column(request.direction);
   work.column = open_row == request.row;
   work.rank = request.rank;
   work.bank = request.bank;
@@ -197,8 +221,9 @@ QueuedChannel::Choice QueuedChannel::best_of(std::uint64_t banks, Choice best) {
 void QueuedChannel::consider_maintenance() {
   for (std::size_t r = 0; r < maintenance_.size(); ++r) {
     const RankMaintenance& rank = maintenance_[r];
-    if (!rank.may_act_by(best_.cycle, waiting_[r] > 0)) continue;
-    Candidate wish = rank.next(device_, waiting_[r] > 0 ? wanted_from_[r] : kNever);
+    const std::uint64_t wanted = wanted_from(static_cast<std::uint32_t>(r));
+    if (!rank.may_act_by(best_.cycle, wanted, clock_)) continue;
+    Candidate wish = rank.next(device_, wanted, clock_);
     if (wish.cycle == kNever) continue;
     wish.cycle = std::max(wish.cycle, clock_);
     if (wish.cycle > best_.cycle) continue;
@@ -253,8 +278,11 @@ void QueuedChannel::issue_column(const Candidate& c, std::int32_t index) {
   if (writes_due_ > 0 && (writes_.empty() || writes_.oldest_order() >= writes_due_)) {
     writes_due_ = 0;
   }
-  if (--waiting_[c.rank] == 0) wanted_from_[c.rank] = kNever;
-  tell_maintenance(c.rank, c.cycle + 1);
+  --rank_requests_[c.rank].waiting;
+  if (--waiting_[flat_bank] == 0) {
+    waiting_banks_ &= ~(std::uint64_t{1} << flat_bank);
+    tell_maintenance(c.rank, c.cycle + 1);
+  }
   const bool more_hits = reads_.oldest_hit(flat_bank) != RequestQueue::kNone ||
                          writes_.oldest_hit(flat_bank) != RequestQueue::kNone;
   const bool close = paging_->close_after(flat_bank, more_hits);

@@ -88,7 +88,11 @@ class QueuedChannel {
   Work work_of(const RequestQueue& queue, std::uint32_t bank) const;
   std::vector<Work>& works(Direction d) { return works_[static_cast<std::size_t>(d)]; }
   void renew_work(std::uint32_t bank);
-  // Tells the rank's maintenance which banks requests wait for; true if that may change the choice.
+  // A rank's first request comes through the front end.
+  void let_through(std::uint32_t rank);
+  // Since when requests that are through the front end wait for a rank, or will; kNever: none does.
+  std::uint64_t wanted_from(std::uint32_t rank) const;
+  // Tells the rank's maintenance which banks these wait for; true if that may change the choice.
   bool tell_maintenance(std::uint32_t rank, std::uint64_t cycle);
   Choice best_of(std::uint64_t banks, Choice best);
   void consider_maintenance();
@@ -104,7 +108,6 @@ class QueuedChannel {
   const std::uint32_t high_watermark_;
   const std::uint32_t low_watermark_;
   const std::uint64_t age_cap_;
-  const std::uint32_t rcd_;
   CommandSink& sink_;
   DeviceTiming device_;
   std::vector<RankMaintenance> maintenance_;
@@ -120,8 +123,19 @@ class QueuedChannel {
   // before.
   std::uint64_t arrived_ = 0;
   std::uint64_t next_order_ = 0;
-  std::vector<std::uint32_t> waiting_;      // requests by rank
-  std::vector<std::uint64_t> wanted_from_;  // by rank: since when requests have been waiting
+  struct Arrival {
+    std::uint64_t ready;
+    std::uint32_t bank;  // counted over all ranks
+  };
+  // Refresh and the low-power states do not look at a request before it is through the front end.
+  struct RankRequests {
+    RingQueue<Arrival> on_the_way;
+    std::uint32_t waiting = 0;
+    std::uint64_t wanted_from = 0;  // while any waits
+  };
+  std::vector<RankRequests> rank_requests_;
+  std::vector<std::uint32_t> waiting_;      // by bank: requests that are through
+  std::uint64_t waiting_banks_ = 0;         // a bit each
   std::vector<RowOutcome> outcome_;         // by bank: of the next column
   std::array<std::vector<Work>, 2> works_;  // by direction and bank
   bool best_known_ = false;

@@ -7,10 +7,7 @@ namespace sgs {
 
 namespace {
 std::uint64_t idle_limit(std::uint32_t cycles) { return cycles == 0 ? kNever : cycles; }
-// Refreshes that JESD209-4 lets wait, here of banks in use; of per-bank ones it allows more.
-constexpr std::uint64_t kMostPostponed = 8;
-
-std::uint64_t all_of(std::uint32_t banks) { return ~std::uint64_t{0} >> (64 - banks); }
+std::uint64_t all_of(std::uint32_t sets) { return ~std::uint64_t{0} >> (64 - sets); }
 std::uint64_t after(std::uint64_t cycle, std::uint64_t delay) {
   return delay == kNever ? kNever : cycle + delay;
 }
@@ -20,47 +17,58 @@ RankMaintenance::RankMaintenance(const DramConfig& config, const Memspec& memspe
                                  std::uint32_t rank)
     : mode_(config.refresh),
       rank_(rank),
-      banks_(memspec.organisation.banks),
-      any_bank_(config.refresh == RefreshMode::kPerBank &&
-                memspec.refresh_order == RefreshOrder::kAny),
+      banks_per_refresh_(memspec.organisation.banks_per_refresh),
+      set_bits_(static_cast<std::uint32_t>(__builtin_ctz(banks_per_refresh_))),
+      sets_(memspec.refresh_sets()),
+      names_bank_(config.refresh == RefreshMode::kPerBank &&
+                  memspec.refresh_order == RefreshOrder::kAny),
       interval_(config.refresh == RefreshMode::kPerBank ? memspec.timing_cycles.refi_bank
                                                         : memspec.timing_cycles.refi),
-      postpone_(interval_ * config.refresh_postpone_max),
-      postpone_in_use_(any_bank_ ? interval_ * kMostPostponed : postpone_),
+      postpone_(interval_ * config.refreshes_postponed(memspec)),
       power_down_idle_(idle_limit(config.power_down_idle_cycles)),
       self_refresh_idle_(idle_limit(config.self_refresh_idle_cycles)),
-      due_banks_(all_of(banks_)) {
+      due_sets_(all_of(sets_)) {
   if (mode_ == RefreshMode::kOff) return;
   refresh_due_ = interval_;
   set_urgency(0);
   set_limits();
 }
 
-bool RankMaintenance::on_waiting(std::uint64_t banks, std::uint64_t cycle) {
-  if (!any_bank_ || banks == waiting_banks_) return false;
-  waiting_banks_ = banks;
-  const std::uint32_t bank = refresh_bank_;
-  const std::uint64_t urgent_from = urgent_from_;
-  choose_bank();
-  if (refresh_bank_ != bank) chosen_from_ = cycle;
-  set_urgency(cycle);
-  set_limits();
-  return refresh_bank_ != bank || urgent_from_ != urgent_from;
+std::uint64_t RankMaintenance::sets_of(std::uint64_t banks) const {
+  if (banks_per_refresh_ == 1) return banks;
+  std::uint64_t sets = 0;
+  for (; banks != 0; banks &= banks - 1)
+    sets |= std::uint64_t{1} << (__builtin_ctzll(banks) >> set_bits_);
+  return sets;
 }
 
-void RankMaintenance::choose_bank() {
-  refresh_bank_ = turn_;
-  if (!any_bank_) return;
-  const std::uint64_t idle = due_banks_ & ~waiting_banks_;
-  const std::uint64_t banks = idle != 0 ? idle : due_banks_;
-  const std::uint64_t from_turn = banks >> turn_ << turn_;
-  refresh_bank_ = static_cast<std::uint32_t>(__builtin_ctzll(from_turn != 0 ? from_turn : banks));
+bool RankMaintenance::on_waiting(std::uint64_t banks, std::uint64_t cycle) {
+  if (!names_bank_) return false;
+  const std::uint64_t sets = sets_of(banks);
+  if (sets == waiting_sets_) return false;
+  waiting_sets_ = sets;
+  const std::uint32_t set = refresh_set_;
+  const std::uint64_t urgent_from = urgent_from_;
+  choose_set();
+  if (refresh_set_ != set) chosen_from_ = cycle;
+  set_urgency(cycle);
+  set_limits();
+  return refresh_set_ != set || urgent_from_ != urgent_from;
+}
+
+void RankMaintenance::choose_set() {
+  refresh_set_ = turn_;
+  if (!names_bank_) return;
+  const std::uint64_t idle = due_sets_ & ~waiting_sets_;
+  const std::uint64_t sets = idle != 0 ? idle : due_sets_;
+  const std::uint64_t from_turn = sets >> turn_ << turn_;
+  refresh_set_ = static_cast<std::uint32_t>(__builtin_ctzll(from_turn != 0 ? from_turn : sets));
 }
 
 void RankMaintenance::set_urgency(std::uint64_t cycle) {
-  if (any_bank_) {
-    const bool in_use = (waiting_banks_ >> refresh_bank_ & 1) != 0;
-    urgent_from_ = refresh_due_ + (in_use ? postpone_in_use_ : postpone_);
+  if (names_bank_) {
+    const bool in_use = (waiting_sets_ >> refresh_set_ & 1) != 0;
+    urgent_from_ = refresh_due_ + (in_use ? postpone_ : 0);
     return;
   }
   // Once owed refreshes are being worked off they go back to back: that is what postponing gains.
@@ -70,52 +78,60 @@ void RankMaintenance::set_urgency(std::uint64_t cycle) {
 
 void RankMaintenance::set_limits() {
   if (state_ != State::kUp) {
-    refresh_bank_limit_ = other_banks_limit_ = 0;
+    refresh_set_limit_ = other_banks_limit_ = 0;
     return;
   }
-  refresh_bank_limit_ = urgent_from_;
+  refresh_set_limit_ = urgent_from_;
   other_banks_limit_ = mode_ == RefreshMode::kPerBank ? kNever : urgent_from_;
 }
 
-Candidate RankMaintenance::next(const DeviceTiming& device, std::uint64_t wanted_from) const {
-  const bool wanted = wanted_from != kNever;
-  const std::uint64_t refresh_from = wanted ? urgent_from_ : refresh_due_;
+Candidate RankMaintenance::next(const DeviceTiming& device, std::uint64_t wanted_from,
+                                std::uint64_t clock) const {
   switch (state_) {
     case State::kSelfRefresh:
-      if (!wanted) return {};
+      if (wanted_from == kNever) return {};
       return {std::max(wanted_from, device.earliest_exit(rank_)), Command::kSelfRefreshExit, rank_,
               0};
     case State::kPowerDown: {
       const std::uint64_t leave =
-          std::min({wanted_from, refresh_from, after(idle_since_, self_refresh_idle_)});
+          std::min({wanted_from, refresh_due_, after(idle_since_, self_refresh_idle_)});
       if (leave == kNever) return {};
       return {std::max(leave, device.earliest_exit(rank_)), Command::kPowerDownExit, rank_, 0};
     }
     case State::kUp:
       break;
   }
+  const auto in_time = [&](const Candidate& c) { return std::max(c.cycle, clock) < wanted_from; };
   Candidate best;
-  if (refresh_from != kNever) best = refresh(device, refresh_from);
-  if (!wanted) {
-    const Candidate low_power = sleep(device);
-    // Not while a refresh is due: it would be left again at once.
-    if (low_power.cycle < refresh_from && low_power.cycle < best.cycle) best = low_power;
+  if (refresh_due_ != kNever) {
+    best = refresh(device, std::max(refresh_due_, clock));
+    if (!in_time(best)) best = refresh(device, std::max(urgent_from_, clock));
   }
+  const Candidate low_power = sleep(device);
+  // Not while a refresh is due: it would be left again at once.
+  if (in_time(low_power) && low_power.cycle < refresh_due_ && low_power.cycle < best.cycle)
+    best = low_power;
   return best;
 }
 
 Candidate RankMaintenance::refresh(const DeviceTiming& device, std::uint64_t from) const {
-  if (mode_ == RefreshMode::kPerBank) {
-    from = std::max(from, chosen_from_);
-    if (device.open_row(rank_, refresh_bank_) != kNoRow)
-      return {std::max(from, device.earliest(RequestCommand::kPrecharge, rank_, refresh_bank_)),
-              Command::kPrecharge, rank_, refresh_bank_};
-    return {std::max(from, device.earliest_refresh_bank(rank_, refresh_bank_)),
-            Command::kRefreshBank, rank_, refresh_bank_};
-  }
+  if (mode_ == RefreshMode::kPerBank) return refresh_of_set(device, std::max(from, chosen_from_));
   if (device.open_banks(rank_) > 0)
     return {std::max(from, device.earliest_precharge_all(rank_)), Command::kPrechargeAll, rank_, 0};
   return {std::max(from, device.earliest_refresh_all(rank_)), Command::kRefreshAll, rank_, 0};
+}
+
+Candidate RankMaintenance::refresh_of_set(const DeviceTiming& device, std::uint64_t from) const {
+  const std::uint32_t first = refresh_set_ * banks_per_refresh_;
+  Candidate precharge, refresh{from, Command::kRefreshBank, rank_, first};
+  for (std::uint32_t bank = first; bank < first + banks_per_refresh_; ++bank) {
+    refresh.cycle = std::max(refresh.cycle, device.earliest_refresh_bank(rank_, bank));
+    if (device.open_row(rank_, bank) == kNoRow) continue;
+    const std::uint64_t closes =
+        std::max(from, device.earliest(RequestCommand::kPrecharge, rank_, bank));
+    if (closes < precharge.cycle) precharge = {closes, Command::kPrecharge, rank_, bank};
+  }
+  return precharge.cycle == kNever ? refresh : precharge;
 }
 
 Candidate RankMaintenance::sleep(const DeviceTiming& device) const {
@@ -149,16 +165,18 @@ void RankMaintenance::on_command(Command command, std::uint64_t cycle) {
       // The device has refreshed itself; the standard asks for one refresh after leaving.
       if (mode_ != RefreshMode::kOff) {
         refresh_due_ = cycle;
-        due_banks_ = all_of(banks_);
-        choose_bank();
+        // It also begins its count of banks again.
+        due_sets_ = all_of(sets_);
+        turn_ = 0;
+        choose_set();
         set_urgency(0);
       }
       break;
     case Command::kRefreshBank:
-      due_banks_ &= ~(std::uint64_t{1} << refresh_bank_);
-      if (due_banks_ == 0) due_banks_ = all_of(banks_);
-      turn_ = (refresh_bank_ + 1) % banks_;
-      choose_bank();
+      due_sets_ &= ~(std::uint64_t{1} << refresh_set_);
+      if (due_sets_ == 0) due_sets_ = all_of(sets_);
+      turn_ = (refresh_set_ + 1) % sets_;
+      choose_set();
       [[fallthrough]];
     case Command::kRefreshAll:
       refresh_due_ += interval_;

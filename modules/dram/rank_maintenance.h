@@ -24,23 +24,27 @@ class RankMaintenance {
  public:
   RankMaintenance(const DramConfig& config, const Memspec& memspec, std::uint32_t rank);
 
-  // Requests wait for these banks of the rank, a bit each, from `cycle` on. A refresh that may go
-  // to any bank goes to one that nobody waits for. True if that changes next() or request_limit().
+  // The controller names the bank of a per-bank refresh.
+  bool names_bank() const { return names_bank_; }
+
+  // Requests that are through the front end wait for these banks of the rank, a bit each, from
+  // `cycle` on. A refresh whose bank the controller names goes to one that nobody waits for. True
+  // if that changes next() or request_limit().
   bool on_waiting(std::uint64_t banks, std::uint64_t cycle);
 
-  // The next command that the rank wants for itself. `wanted_from`: the cycle from which requests
-  // wait for this rank, kNever when none does.
-  Candidate next(const DeviceTiming& device, std::uint64_t wanted_from) const;
+  // The next command that the rank wants for itself, not before `clock`. `wanted_from`: the cycle
+  // from which requests wait for this rank, kNever when none does.
+  Candidate next(const DeviceTiming& device, std::uint64_t wanted_from, std::uint64_t clock) const;
 
-  // True if next() could come up with a command up to `cycle`; cheap.
-  bool may_act_by(std::uint64_t cycle, bool wanted) const {
-    return !wanted || state_ != State::kUp || urgent_from_ <= cycle;
+  // True if next() could come up with a command from `clock` up to `cycle`; cheap.
+  bool may_act_by(std::uint64_t cycle, std::uint64_t wanted_from, std::uint64_t clock) const {
+    return wanted_from > clock || state_ != State::kUp || urgent_from_ <= cycle;
   }
 
   // A request's command to `bank` must be sent before this cycle: refresh goes first from there.
   // 0 in a low-power state.
   std::uint64_t request_limit(std::uint32_t bank) const {
-    return bank == refresh_bank_ ? refresh_bank_limit_ : other_banks_limit_;
+    return bank >> set_bits_ == refresh_set_ ? refresh_set_limit_ : other_banks_limit_;
   }
 
   bool powered_up() const { return state_ == State::kUp; }
@@ -53,30 +57,33 @@ class RankMaintenance {
   enum class State { kUp, kPowerDown, kSelfRefresh };
 
   Candidate refresh(const DeviceTiming& device, std::uint64_t from) const;
+  Candidate refresh_of_set(const DeviceTiming& device, std::uint64_t from) const;
   Candidate sleep(const DeviceTiming& device) const;
-  void choose_bank();
+  std::uint64_t sets_of(std::uint64_t banks) const;
+  void choose_set();
   void set_urgency(std::uint64_t cycle);
   void set_limits();
 
   const RefreshMode mode_;
   const std::uint32_t rank_;
-  const std::uint32_t banks_;
-  const bool any_bank_;  // the controller names the bank of a per-bank refresh
+  const std::uint32_t banks_per_refresh_;
+  const std::uint32_t set_bits_;  // its logarithm
+  const std::uint32_t sets_;  // of banks that a per-bank refresh takes together; most have one bank
+  const bool names_bank_;
   const std::uint64_t interval_;
-  const std::uint64_t postpone_;         // cycles
-  const std::uint64_t postpone_in_use_;  // likewise, of a bank that requests wait for
+  const std::uint64_t postpone_;  // cycles
   const std::uint64_t power_down_idle_;
   const std::uint64_t self_refresh_idle_;
 
   State state_ = State::kUp;
   std::uint64_t refresh_due_ = kNever;
   std::uint64_t urgent_from_ = kNever;
-  std::uint32_t turn_ = 0;          // the bank after the last one refreshed
-  std::uint32_t refresh_bank_ = 0;  // whose turn it is, with per-bank refresh
-  std::uint64_t chosen_from_ = 0;   // the cycle from which it has been known to be that one
-  std::uint64_t due_banks_ = 0;     // a bit each: those that have not had their turn
-  std::uint64_t waiting_banks_ = 0;
-  std::uint64_t refresh_bank_limit_ = kNever;
+  std::uint32_t turn_ = 0;         // the set after the last one refreshed
+  std::uint32_t refresh_set_ = 0;  // whose turn it is, with per-bank refresh
+  std::uint64_t chosen_from_ = 0;  // the cycle from which it has been known to be that one
+  std::uint64_t due_sets_ = 0;     // a bit each: those that have not had their turn
+  std::uint64_t waiting_sets_ = 0;
+  std::uint64_t refresh_set_limit_ = kNever;
   std::uint64_t other_banks_limit_ = kNever;
   std::uint64_t idle_since_ = 0;
 };

@@ -1,7 +1,11 @@
 // Request traces as text: requests to the memory, to be replayed by tb_dram --replay.
 //
-// One request a line, "ADDRESS R|W [NANOSECONDS [BYTES]]": address in decimal or 0x hexadecimal,
-// the time not before which it is sent, not decreasing. Lines that begin with # are comments.
+// One request a line, of one of three forms, which the first request decides. Lines that begin with
+// # are comments; one before the first request that names columns must name ours in their order.
+//   ours      ADDRESS R|W [NANOSECONDS [BYTES]]      address in decimal or 0x hexadecimal
+//   DRAMSys   CYCLE: [(BYTES)] read|write 0xADDRESS [0xDATA]      .stl; data are not used
+//   DRAMsim3  0xADDRESS READ|WRITE CYCLE
+// The time is that not before which a request is sent, and does not decrease.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +23,14 @@ struct MemoryRequest {
   std::uint32_t bytes = 0;   // 0: whoever sends it decides
 };
 
-// Throws InputError with file and line for a line that is no request.
-std::vector<MemoryRequest> read_request_trace(const std::string& path);
+struct RequestTrace {
+  std::string form;  // whose, or empty: ours
+  std::vector<MemoryRequest> requests;
+};
+
+// Cycles of traces that have them are `cycle_ns` long. Throws InputError with file and line for a
+// line that is no request of the form.
+RequestTrace read_request_trace(const std::string& path, double cycle_ns);
 
 class RequestTraceWriter {
  public:

@@ -29,13 +29,10 @@ constexpr std::uint32_t kEverything = (1u << kCommands) - 1;
 constexpr std::uint32_t kExits = set_of({C::kPowerDownExit, C::kSelfRefreshExit});
 constexpr std::uint32_t kSleeps = set_of({C::kPowerDownEnter, C::kSelfRefreshEnter});
 
-// Eight refreshes may be postponed beyond the one that is due.
-constexpr std::uint64_t kMostOwed = 9;
-
 std::uint32_t write_end_of(const Memspec& m, WriteLatencySet set) {
   const Memspec::Timing& t = m.timing_cycles;
-  return (set == WriteLatencySet::kA ? t.write_latency_a : t.write_latency_b) + 1 +
-         m.organisation.burst_length / 2;
+  return (set == WriteLatencySet::kA ? t.write_latency_a : t.write_latency_b) + t.dqss +
+         m.organisation.burst_length / m.organisation.beats_per_clock;
 }
 
 }  // namespace
@@ -50,18 +47,19 @@ std::string TraceViolation::text() const {
 
 std::vector<TraceChecker::Rule> TraceChecker::rules(const Memspec& m, WriteLatencySet set) {
   const Memspec::Timing& t = m.timing_cycles;
-  const std::uint64_t burst = m.organisation.burst_length / 2;
+  const std::uint64_t burst = m.organisation.burst_length / m.organisation.beats_per_clock;
   const std::uint64_t wl = set == WriteLatencySet::kA ? t.write_latency_a : t.write_latency_b;
   const std::uint64_t read_end = t.read_latency + t.dqsck_max + burst;
-  const std::uint64_t write_end = wl + 1 + burst;
+  const std::uint64_t write_end = write_end_of(m, set);
   const std::uint64_t next_read = t.read_latency + t.dqsck_min;
   const std::uint64_t write_to_other_read =
       write_end + t.rtrs > next_read ? write_end + t.rtrs - next_read : 1;
-  const std::uint32_t columns = kReads | kWrites;
   const std::uint32_t precharges = set_of({C::kPrecharge, C::kPrechargeAll});
   const std::uint32_t activate = set_of({C::kActivate});
-  return {
-      {"tRCD", activate, columns, Scope::kSameBank, t.rcd},
+  const std::uint32_t refresh_bank = set_of({C::kRefreshBank});
+  std::vector<Rule> rules = {
+      {"tRCD", activate, kReads, Scope::kSameBank, t.rcd},
+      {"tRCD", activate, kWrites, Scope::kSameBank, t.rcd_write > 0 ? t.rcd_write : t.rcd},
       {"tRAS", activate, set_of({C::kPrecharge}), Scope::kSameBank, t.ras},
       {"tRAS", activate, set_of({C::kPrechargeAll}), Scope::kSameRank, t.ras},
       {"tRC", activate, kActivations, Scope::kSameBank, t.rc},
@@ -70,14 +68,14 @@ std::vector<TraceChecker::Rule> TraceChecker::rules(const Memspec& m, WriteLaten
       {"tRPpb", set_of({C::kPrecharge}), kNeedsClosedRank, Scope::kSameRank, t.rp_bank},
       {"tRPab", set_of({C::kPrechargeAll}), kActivations | kNeedsClosedRank, Scope::kSameRank,
        t.rp_all},
-      {"tRRD", kActivations, kActivations, Scope::kSameRank, t.rrd},
+      {"tRRD", activate, kActivations, Scope::kSameRank, t.rrd},
       {"tRTP", kReads, set_of({C::kPrecharge}), Scope::kSameBank, t.rtp},
       {"tRTP", kReads, set_of({C::kPrechargeAll}), Scope::kSameRank, t.rtp},
       {"tWR", kWrites, set_of({C::kPrecharge}), Scope::kSameBank, write_end + t.wr},
       {"tWR", kWrites, set_of({C::kPrechargeAll}), Scope::kSameRank, write_end + t.wr},
       {"tCCD", kReads, kReads, Scope::kSameRank, t.ccd},
       {"tCCD", kWrites, kWrites, Scope::kSameRank, t.ccd},
-      {"read to write", kReads, kWrites, Scope::kSameRank, read_end + 1 - wl},
+      {"read to write", kReads, kWrites, Scope::kSameRank, t.rtw > 0 ? t.rtw : read_end + 1 - wl},
       {"tWTR", kWrites, kReads, Scope::kSameRank, write_end + t.wtr},
       {"tRTRS", kReads, kReads, Scope::kOtherRank, burst + t.rtrs},
       {"tRTRS", kWrites, kWrites, Scope::kOtherRank, burst + t.rtrs},
@@ -85,9 +83,8 @@ std::vector<TraceChecker::Rule> TraceChecker::rules(const Memspec& m, WriteLaten
       {"tRTRS write to read", kWrites, kReads, Scope::kOtherRank, write_to_other_read},
       {"tRFCab", set_of({C::kRefreshAll}), kActivations | kNeedsClosedRank | kSleeps,
        Scope::kSameRank, t.rfc_all},
-      {"tRFCpb", set_of({C::kRefreshBank}), activate, Scope::kSameBank, t.rfc_bank},
-      {"tRFCpb", set_of({C::kRefreshBank}), set_of({C::kRefreshBank}) | kNeedsClosedRank | kSleeps,
-       Scope::kSameRank, t.rfc_bank},
+      {"tRFCpb", refresh_bank, kActivations, Scope::kSameBank, t.rfc_bank},
+      {"tRFCpb", refresh_bank, kNeedsClosedRank | kSleeps, Scope::kSameRank, t.rfc_bank},
       {"read before power-down", kReads, kSleeps, Scope::kSameRank, read_end + 1},
       {"write before power-down", kWrites, kSleeps, Scope::kSameRank, write_end + t.wr},
       {"write before power-down", set_of({C::kWriteAuto}), kSleeps, Scope::kSameRank,
@@ -100,19 +97,38 @@ std::vector<TraceChecker::Rule> TraceChecker::rules(const Memspec& m, WriteLaten
        t.cke_self_refresh},
       {"tXSR", set_of({C::kSelfRefreshExit}), kEverything & ~kExits, Scope::kSameRank, t.xsr},
   };
+  // Constraints that some standards have of their own, and others share with another.
+  if (t.pbr2pbr > 0)
+    rules.push_back({"tpbR2pbR", refresh_bank, refresh_bank, Scope::kSameRank, t.pbr2pbr});
+  else
+    rules.push_back({"tRFCpb", refresh_bank, refresh_bank, Scope::kSameRank, t.rfc_bank});
+  if (t.pbr2act > 0)
+    rules.push_back({"tpbR2act", refresh_bank, activate, Scope::kSameRank, t.pbr2act});
+  else
+    rules.push_back({"tRRD", refresh_bank, activate, Scope::kSameRank, t.rrd});
+  if (m.organisation.bank_groups == 1) return rules;
+  const std::uint64_t writes_apart = t.ccd_l_write > 0 ? t.ccd_l_write : t.ccd_l;
+  rules.push_back({"tCCD_L", kReads, kReads, Scope::kSameGroup, t.ccd_l});
+  rules.push_back({"tCCD_L_WR", kWrites, kWrites, Scope::kSameGroup, writes_apart});
+  rules.push_back({"tRRD_L", activate, activate, Scope::kSameGroup, t.rrd_l});
+  rules.push_back({"tWTR_L", kWrites, kReads, Scope::kSameGroup, write_end + t.wtr_l});
+  return rules;
 }
 
 TraceChecker::TraceChecker(const Memspec& memspec, const CommandTraceHeader& header)
     : memspec_(memspec),
       header_(header),
       write_end_(write_end_of(memspec, header.write_latency_set)),
-      channels_(header.channels) {
+      channels_(header.channels * memspec.organisation.pseudo_channels) {
   for (const Rule& rule : rules(memspec, header.write_latency_set))
     for (std::size_t c = 0; c < kCommands; ++c)
       if (contains(rule.after, static_cast<Command>(c))) rules_by_command_[c].push_back(rule);
   for (Channel& channel : channels_) {
     channel.ranks.resize(header.ranks);
-    for (Rank& rank : channel.ranks) rank.banks.resize(memspec.organisation.banks);
+    for (Rank& rank : channel.ranks) {
+      rank.banks.resize(memspec.organisation.banks);
+      rank.groups.resize(memspec.organisation.bank_groups);
+    }
   }
 }
 
@@ -122,15 +138,20 @@ void TraceChecker::Verdict::at_least(std::uint64_t cycle, const char* name) {
   if (!forbidden) constraint = name;
 }
 
-void TraceChecker::Verdict::forbid(const char* name) {
+void TraceChecker::Verdict::forbid(const std::string& name) {
   if (!forbidden) constraint = name;
   forbidden = true;
 }
 
 bool TraceChecker::in_range(const CommandRecord& r) const {
-  return r.channel < header_.channels && r.rank < header_.ranks &&
+  return r.channel < channels_.size() && r.rank < header_.ranks &&
          r.bank < memspec_.organisation.banks && r.row < memspec_.organisation.rows &&
          r.burst < memspec_.bursts_per_row();
+}
+
+std::uint32_t TraceChecker::banks_of(const CommandRecord& r) const {
+  if (r.command != C::kRefreshBank) return 1;
+  return std::min(memspec_.organisation.banks_per_refresh, memspec_.organisation.banks - r.bank);
 }
 
 std::optional<TraceViolation> TraceChecker::check(const CommandRecord& record) {
@@ -156,7 +177,8 @@ void TraceChecker::on_command(const CommandRecord& record) {
 }
 
 void TraceChecker::check_state(const CommandRecord& r, const Rank& rank, Verdict& verdict) const {
-  const Bank& bank = rank.banks[r.bank];
+  const std::uint32_t together = memspec_.organisation.banks_per_refresh;
+  const auto bank = rank.banks.begin() + r.bank;
   const bool any_open =
       std::any_of(rank.banks.begin(), rank.banks.end(), [](const Bank& b) { return b.open; });
   const std::uint32_t self = 1u << static_cast<std::uint32_t>(r.command);
@@ -167,11 +189,13 @@ void TraceChecker::check_state(const CommandRecord& r, const Rank& rank, Verdict
   } else if (rank.powered_down || rank.self_refresh) {
     verdict.forbid("command while the clock enable is low");
   }
-  if (r.command == C::kActivate && bank.open) verdict.forbid("activate of an open bank");
-  if ((self & (kReads | kWrites)) != 0 && !bank.open) verdict.forbid("column of a closed bank");
+  if (r.command == C::kActivate && bank->open) verdict.forbid("activate of an open bank");
+  if ((self & (kReads | kWrites)) != 0 && !bank->open) verdict.forbid("column of a closed bank");
   if ((self & kNeedsClosedRank) != 0 && any_open) verdict.forbid("refresh with an open bank");
   if (r.command != C::kRefreshBank) return;
-  if (bank.open) verdict.forbid("refresh of an open bank");
+  if (r.bank % together != 0) verdict.forbid("refresh of banks that do not go together");
+  if (std::any_of(bank, bank + banks_of(r), [](const Bank& b) { return b.open; }))
+    verdict.forbid("refresh of an open bank");
   if (memspec_.refresh_order == RefreshOrder::kAny) {
     if ((rank.had_their_turn >> r.bank & 1) != 0) verdict.forbid("refreshed again before others");
   } else if (r.bank != rank.next_bank) {
@@ -192,7 +216,13 @@ void TraceChecker::check_distances(const CommandRecord& r, const Channel& channe
       const bool same = rank == r.rank;
       if (same == (rule.scope == Scope::kOtherRank)) continue;
       const Rank& state = channel.ranks[rank];
-      consider(rule.scope == Scope::kSameBank ? state.banks[r.bank].last : state.last, rule);
+      if (rule.scope == Scope::kSameBank)
+        for (std::uint32_t b = r.bank; b < r.bank + banks_of(r); ++b)
+          consider(state.banks[b].last, rule);
+      else if (rule.scope == Scope::kSameGroup)
+        consider(state.groups[r.bank % state.groups.size()], rule);
+      else
+        consider(state.last, rule);
     }
   }
 }
@@ -202,8 +232,9 @@ void TraceChecker::check_windows(const CommandRecord& r, const Rank& rank, Verdi
   const std::uint32_t self = 1u << static_cast<std::uint32_t>(r.command);
   if ((self & kActivations) != 0) {
     if (rank.activations.size() == 4) verdict.at_least(rank.activations.front() + t.faw, "tFAW");
-    if (rank.banks[r.bank].auto_closed != 0)
-      verdict.at_least(rank.banks[r.bank].auto_closed + t.rp_bank, "auto-precharge + tRPpb");
+    for (std::uint32_t b = r.bank; b < r.bank + banks_of(r); ++b)
+      if (rank.banks[b].auto_closed != 0)
+        verdict.at_least(rank.banks[b].auto_closed + t.rp_bank, "auto-precharge + tRPpb");
   }
   if ((self & kNeedsClosedRank) != 0)
     for (const Bank& bank : rank.banks)
@@ -216,10 +247,12 @@ void TraceChecker::check_windows(const CommandRecord& r, const Rank& rank, Verdi
   if (!rank.self_refresh) {
     const bool all = header_.refresh == RefreshMode::kAllBank;
     const std::uint64_t interval = all ? t.refi : t.refi_bank;
-    const std::uint64_t most = all ? kMostOwed : kMostOwed * memspec_.organisation.banks;
+    const std::uint64_t owed = memspec_.refresh_postpone_limit + 1;
+    const std::uint64_t most = all ? owed : owed * memspec_.refresh_sets();
     const std::uint64_t elapsed =
         r.cycle > rank.refreshes_due_from ? r.cycle - rank.refreshes_due_from : 0;
-    if (elapsed / interval > rank.refreshes + most) verdict.forbid("tREFI: more than 8 postponed");
+    if (elapsed / interval > rank.refreshes + most)
+      verdict.forbid(fmt::format("tREFI: more than {} postponed", memspec_.refresh_postpone_limit));
   }
 }
 
@@ -231,7 +264,8 @@ void TraceChecker::apply(const CommandRecord& r) {
   const auto c = static_cast<std::size_t>(r.command);
   channel.bus_free = r.cycle + 1;
   rank.last[c] = r.cycle + 1;
-  bank.last[c] = r.cycle + 1;
+  rank.groups[r.bank % rank.groups.size()][c] = r.cycle + 1;
+  for (std::uint32_t b = r.bank; b < r.bank + banks_of(r); ++b) rank.banks[b].last[c] = r.cycle + 1;
   switch (r.command) {
     case C::kActivate:
       bank.open = true;
@@ -265,16 +299,23 @@ void TraceChecker::apply(const CommandRecord& r) {
       rank.self_refresh = false;
       rank.refreshes_due_from = r.cycle;
       rank.refreshes = 0;
+      rank.next_bank = 0;
       rank.had_their_turn = 0;
       break;
     default:
       break;
   }
   if (r.command == C::kRefreshAll || r.command == C::kRefreshBank) ++rank.refreshes;
+  if (r.command == C::kRefreshAll) {  // it, too, begins the count of banks again
+    rank.next_bank = 0;
+    rank.had_their_turn = 0;
+  }
   if (r.command == C::kRefreshBank) {
     const std::size_t banks = rank.banks.size();
-    rank.next_bank = (rank.next_bank + 1) % static_cast<std::uint32_t>(banks);
-    rank.had_their_turn |= std::uint64_t{1} << r.bank;
+    const std::uint32_t together = memspec_.organisation.banks_per_refresh;
+    rank.next_bank = (rank.next_bank + together) % static_cast<std::uint32_t>(banks);
+    for (std::uint32_t b = r.bank; b < r.bank + banks_of(r); ++b)
+      rank.had_their_turn |= std::uint64_t{1} << b;
     if (rank.had_their_turn == ~std::uint64_t{0} >> (64 - banks)) rank.had_their_turn = 0;
   }
   if (contains(kActivations, r.command)) {

@@ -38,7 +38,7 @@ class TraceChecker : public CommandSink {
   std::uint64_t checked() const { return checked_; }
 
  private:
-  enum class Scope { kSameBank, kSameRank, kOtherRank };
+  enum class Scope { kSameBank, kSameGroup, kSameRank, kOtherRank };
   struct Rule {
     const char* name;
     std::uint32_t before;  // set of commands, a bit each
@@ -56,6 +56,7 @@ class TraceChecker : public CommandSink {
   struct Rank {
     Times last{};
     std::vector<Bank> banks;
+    std::vector<Times> groups;
     std::deque<std::uint64_t> activations;  // the last four
     bool powered_down = false;
     bool self_refresh = false;
@@ -73,11 +74,13 @@ class TraceChecker : public CommandSink {
     std::string constraint;
     bool forbidden = false;
     void at_least(std::uint64_t cycle, const char* name);
-    void forbid(const char* name);
+    void forbid(const std::string& name);
   };
 
   static std::vector<Rule> rules(const Memspec& memspec, WriteLatencySet set);
   bool in_range(const CommandRecord& record) const;
+  // Of the command: its own, and with a per-bank refresh those that it takes too.
+  std::uint32_t banks_of(const CommandRecord& record) const;
   void check_state(const CommandRecord& record, const Rank& rank, Verdict& verdict) const;
   void check_distances(const CommandRecord& record, const Channel& channel, Verdict& verdict) const;
   void check_windows(const CommandRecord& record, const Rank& rank, Verdict& verdict) const;
@@ -85,7 +88,7 @@ class TraceChecker : public CommandSink {
 
   const Memspec memspec_;
   const CommandTraceHeader header_;
-  const std::uint32_t write_end_;  // WL + 1 + BL/2
+  const std::uint32_t write_end_;  // command to last datum
   std::array<std::vector<Rule>, kCommands> rules_by_command_;
   std::vector<Channel> channels_;
   std::optional<TraceViolation> first_;

@@ -14,6 +14,7 @@
 #include "testbench/command_line/config_source.h"
 #include "testbench/command_line/program.h"
 #include "testbench/dram/bench_table.h"
+#include "testbench/dram/part_streams.h"
 #include "testbench/dram/self_check.h"
 #include "testbench/dram/stats_table.h"
 #include "tlm/no_banner.h"
@@ -66,7 +67,8 @@ struct Outputs {
 
 void open_outputs(const Arguments& a, const DramConfig& config, Outputs& outputs) {
   OutputPlan plan;
-  for (const std::string& input : {a.replay, a.published, a.config.path(), config.memspec}) {
+  for (const std::string& input :
+       {a.replay, a.published, a.config.path(), memspec_path(config.memspec)}) {
     plan.add_input(input);
   }
   for (const std::string& output : {a.vcd, a.dram_trace}) {
@@ -96,6 +98,16 @@ int print_benchmarks(const Arguments& a) {
   const auto four = measure(published_rows(a.published, "four_channels", a.requests));
   print_table("LPDDR3-1600, 4 channels x32 (peak 25.6 GB/s), window 128, by interleave", four);
   int status = 0;
+  std::vector<PartStreams> parts;
+  for (const std::string& memspec : shipped_memspecs())
+    parts.push_back(measure_part(memspec, a.requests));
+  print_parts(parts);
+  for (const PartStreams& part : parts)
+    for (std::size_t i = 0; i < kPartStreams; ++i)
+      if (part.gb_per_s[i] > part.bound_gb_per_s[i]) {
+        fmt::print("FAIL: {} {} is above its bound\n", part.memspec, kPartStreamNames[i]);
+        status = 1;
+      }
   for (const auto* rows : {&one, &four})
     for (const MeasuredRow& row : *rows)
       if (row.published.bound_gb_per_s && row.ours.gb_per_s > *row.published.bound_gb_per_s) {
@@ -105,8 +117,13 @@ int print_benchmarks(const Arguments& a) {
   return status;
 }
 
-std::vector<MemoryRequest> requests_to_replay(const Arguments& a, std::uint64_t capacity_bytes) {
-  std::vector<MemoryRequest> requests = read_request_trace(a.replay);
+std::vector<MemoryRequest> requests_to_replay(const Arguments& a, std::uint64_t capacity_bytes,
+                                              double cycle_ns) {
+  const RequestTrace trace = read_request_trace(a.replay, cycle_ns);
+  const std::vector<MemoryRequest>& requests = trace.requests;
+  if (!trace.form.empty())
+    fmt::print(stderr, "tb_dram: note: {}: a {} trace, its cycles are the memory's of {} ns\n",
+               a.replay, trace.form, cycle_ns);
   if (requests.empty())
     throw InputError(fmt::format("{}: got no request, expected at least one", a.replay));
   for (std::size_t i = 0; i < requests.size(); ++i) {
@@ -133,14 +150,15 @@ int run_requests(const Arguments& a, const DramConfig& config) {
   bench.stream.request_bytes = a.bytes;
   bench.stream.stride_bytes = a.stride;
   bench.stream.write_percent = a.write_percent;
-  bench.stream.span_bytes = AddressMapping(config, load_memspec(config.memspec)).capacity_bytes();
+  const Memspec memspec = load_memspec(config.memspec);
+  bench.stream.span_bytes = AddressMapping(config, memspec).capacity_bytes();
   bench.stream.pattern = a.stream == "seq"      ? Pattern::kSequential
                          : a.stream == "stride" ? Pattern::kStride
                                                 : Pattern::kRandom;
   std::vector<MemoryRequest> requests;
   std::size_t next = 0;
   if (!a.replay.empty()) {
-    requests = requests_to_replay(a, bench.stream.span_bytes);
+    requests = requests_to_replay(a, bench.stream.span_bytes, memspec.clock_period_ns);
     bench.requests = requests.size();
     bench.next = [&] { return requests[next++]; };
   }
@@ -218,7 +236,8 @@ int sc_main(int argc, char* argv[]) {
   line.flag("--speed", a.speed, "requests per wall second");
   line.file("--published", a.published, "data file of the published figures");
   line.one_of({"seq", "rnd", "stride"}, "--stream", a.stream, "measure one stream");
-  line.file("--replay", a.replay, "measure a request trace: ADDRESS R|W [NANOSECONDS [BYTES]]");
+  line.file("--replay", a.replay,
+            "measure a request trace: ADDRESS R|W [NANOSECONDS [BYTES]], DRAMSys's or DRAMsim3's");
   line.whole("--requests", a.requests, 1, kMost, "how many");
   line.whole("--window", a.window, 1, 1 << 20, "outstanding requests");
   line.whole("--bytes", a.bytes, 1, 65536, "of a request");

@@ -90,9 +90,10 @@ void print_sheets(const MachineResult& machine) {
 
 void print_memory(const DramConfig& dram) {
   const Memspec memspec = load_memspec(dram.memspec);
+  const std::uint32_t buses = dram.buses(memspec);
   Table memory("| memory | channels | bits of a channel | most GB/s | a port's bytes a cycle |");
-  memory.row(fmt::format("{} | {} | {} | {:.4g} | {} ", memspec.name, dram.channels,
-                         memspec.organisation.width_bits, dram.channels * memspec.peak_gb_per_s(),
+  memory.row(fmt::format("{} | {} | {} | {:.4g} | {} ", memspec.name, buses,
+                         memspec.organisation.width_bits, buses * memspec.peak_gb_per_s(),
                          kPortBytes));
 }
 

@@ -14,6 +14,7 @@
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/storage/decoded_image.h"
 #include "algorithm/storage/image_file.h"
+#include "modules/dram/memspec.h"
 #include "testbench/command_line/config_source.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/describe_packed.h"
@@ -53,7 +54,7 @@ int run(const PackArguments& arguments, const Kinds& kinds) {
   OutputPlan plan;
   arguments.add_inputs_to(plan);
   plan.add_input(arguments.config.path());
-  plan.add_input(config.dram.memspec);
+  plan.add_input(memspec_path(config.dram.memspec));
   plan.add_output(arguments.out);
   plan.check();
   resolve(config);

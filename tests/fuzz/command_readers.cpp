@@ -101,7 +101,7 @@ const std::vector<FuzzedReader>& fuzzed_readers() {
         of_file("sweep_points", "a.txt", read_sweep_points),
         of_file("sweep_results", "a.jsonl", [](const std::string& path) { SweepResults{path}; }),
         of_file("report", "a.json", read_report),
-        of_file("request_trace", "a", [](const std::string& path) { read_request_trace(path); }),
+        of_file("request_trace", "a", [](const std::string& path) { read_request_trace(path, 1.25); }),
         of_file("command_trace", "a", read_command_trace),
         of_file("packed", "a.sgs",
                 [](const std::string& path) { restore_scene(read_image_file(path), path); }),

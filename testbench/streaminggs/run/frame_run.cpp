@@ -74,7 +74,7 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
   result.drained = drained(*machine) && memory.idle();
   result.machine = collect(*machine);
   if (timeline) timeline->close();
-  add_memory_path(*machine, dram.channels, result.machine);
+  add_memory_path(*machine, dram.buses(memory.memspec()), result.machine);
   result.memory = collect_memory(memory.stats(), job.layout.regions, machine->requesters());
   result.frame.resize(job.frame_buffer.bytes);
   memory.read_back(job.frame_buffer.base, result.frame.data(), result.frame.size());

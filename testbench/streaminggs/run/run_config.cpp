@@ -121,6 +121,8 @@ void resolve_machine(RunConfig& config) {
     config.dram.validate();
     const Memspec device = load_memspec(config.dram.memspec);
     const AddressMapping mapping(config.dram, device);
+    config.dram.refresh_postpone_max =
+        static_cast<std::int32_t>(config.dram.refreshes_postponed(device));
     config.add_choices(scheme_of(config.storage.order).choose(config.storage, mapping.run_bytes()));
     config.design->resolve(config.storage, config.chosen);
   });

@@ -39,6 +39,7 @@ class ClockedChannel {
         t_(memspec.timing_cycles),
         burst_(memspec.burst_cycles()),
         banks_(memspec.organisation.banks),
+        groups_(memspec.organisation.bank_groups),
         refresh_(hardware.refresh, memspec) {}
 
   bool full(Direction d) const {
@@ -52,12 +53,14 @@ class ClockedChannel {
   // A cycle: at most one command.
   void step() {
     refresh_.begin_cycle(now_);
-    std::set<std::uint32_t> waiting;
+    std::set<std::uint32_t> waiting;  // banks of requests that are through the front end
     for (const Queue* requests : {&reads_, &writes_}) {
-      for (const Entry& entry : *requests) waiting.insert(entry.request.bank);
+      for (const Entry& entry : *requests) {
+        if (now_ >= entry.ready) waiting.insert(entry.request.bank);
+      }
     }
     refresh_.look_for_bank(waiting);
-    if (!refresh_.wanted(!empty()) || !send_refresh()) send_request();
+    if (!refresh_.wanted(!waiting.empty()) || !send_refresh()) send_request();
     ++now_;
   }
   const std::vector<Sent>& sent() const { return sent_; }
@@ -71,6 +74,9 @@ class ClockedChannel {
   struct Bank {
     std::uint32_t row = kNoRow;
     std::optional<std::uint64_t> activated, precharged, read, written, refreshed;  // last
+  };
+  struct Group {
+    std::optional<std::uint64_t> activated, read, written;  // last
   };
   struct Choice {
     bool column;
@@ -115,9 +121,10 @@ class ClockedChannel {
     } else if (b.row != kNoRow) {
       choice.command = Command::kPrecharge;
     }
-    if (now_ < entry.ready || !legal(choice.command, b) || refresh_.holds(bank)) return;
+    if (now_ < entry.ready || !legal(choice.command, bank) || refresh_.holds(bank)) return;
     // A row that a refresh closes again before its first column.
-    if (choice.command == Command::kActivate && refresh_.will_hold(bank, t_.rcd)) return;
+    const std::uint32_t to_column = wanted == Direction::kWrite ? rcd_write() : t_.rcd;
+    if (choice.command == Command::kActivate && refresh_.will_hold(bank, to_column)) return;
     const bool better = !best || (choice.column && !best->column) ||
                         (choice.column == best->column && choice.order < best->order);
     if (better) best = choice;
@@ -126,21 +133,29 @@ class ClockedChannel {
   bool since(const std::optional<std::uint64_t>& last, std::uint64_t cycles) const {
     return !last || now_ >= *last + cycles;
   }
-  bool legal(Command command, const Bank& b) const {
-    const std::uint64_t write_end = t_.write_latency_a + 1 + burst_;
+  std::uint32_t rcd_write() const { return t_.rcd_write > 0 ? t_.rcd_write : t_.rcd; }
+  bool legal(Command command, std::uint32_t bank) const {
+    const Bank& b = banks_[bank];
+    const Group& group = groups_[bank % groups_.size()];
+    const std::uint64_t write_end = t_.write_latency_a + t_.dqss + burst_;
+    const std::uint64_t turn = t_.read_latency + t_.dqsck_max + burst_ + 1 - t_.write_latency_a;
     switch (command) {
       case Command::kActivate:
         return closed_for_long(b) && since(b.refreshed, t_.rfc_bank) &&
                since(refreshed_all_, t_.rfc_all) && since(activates_[3], t_.rrd) &&
-               since(activates_[0], t_.faw);
+               since(activates_[0], t_.faw) && since(group.activated, t_.rrd_l) &&
+               since(refreshed_bank_, t_.pbr2act);
       case Command::kRefreshBank:  // an activation, to the rank
-        return legal(Command::kActivate, b) && since(refreshed_bank_, t_.rfc_bank);
+        return legal(Command::kActivate, bank) &&
+               since(refreshed_bank_, t_.pbr2pbr > 0 ? t_.pbr2pbr : t_.rfc_bank);
       case Command::kRead:
         return since(b.activated, t_.rcd) && since(read_, t_.ccd) &&
-               since(written_, write_end + t_.wtr);
+               since(written_, write_end + t_.wtr) && since(group.read, t_.ccd_l) &&
+               since(group.written, write_end + t_.wtr_l);
       case Command::kWrite:
-        return since(b.activated, t_.rcd) && since(written_, t_.ccd) &&
-               since(read_, t_.read_latency + t_.dqsck_max + burst_ + 1 - t_.write_latency_a);
+        return since(b.activated, rcd_write()) && since(written_, t_.ccd) &&
+               since(read_, t_.rtw > 0 ? t_.rtw : turn) &&
+               since(group.written, t_.ccd_l_write > 0 ? t_.ccd_l_write : t_.ccd_l);
       default:
         return since(b.activated, t_.ras) && since(b.read, t_.rtp) &&
                since(b.written, write_end + t_.wr);
@@ -157,8 +172,8 @@ class ClockedChannel {
   bool refresh_all() {
     const auto is_open = [](const Bank& b) { return b.row != kNoRow; };
     if (std::any_of(banks_.begin(), banks_.end(), is_open)) {
-      for (const Bank& b : banks_) {
-        if (is_open(b) && !legal(Command::kPrecharge, b)) return false;
+      for (std::uint32_t bank = 0; bank < banks_.size(); ++bank) {
+        if (is_open(banks_[bank]) && !legal(Command::kPrecharge, bank)) return false;
       }
       for (Bank& b : banks_) b.row = kNoRow;
       precharged_all_ = now_;
@@ -174,16 +189,26 @@ class ClockedChannel {
     return true;
   }
   bool refresh_bank() {
-    Bank& b = banks_[refresh_.bank()];
-    const Command command = b.row != kNoRow ? Command::kPrecharge : Command::kRefreshBank;
-    if (!legal(command, b)) return false;
-    sent_.push_back({now_, command, refresh_.bank(), 0, 0});
-    if (command == Command::kPrecharge) {
+    bool open = false;
+    for (std::uint32_t bank = refresh_.first_bank(); bank < refresh_.end_bank(); ++bank) {
+      Bank& b = banks_[bank];
+      if (b.row == kNoRow) continue;
+      open = true;
+      if (!legal(Command::kPrecharge, bank)) continue;
       b.row = kNoRow;
       b.precharged = now_;
+      sent_.push_back({now_, Command::kPrecharge, bank, 0, 0});
       return true;
     }
-    b.refreshed = refreshed_bank_ = now_;
+    if (open) return false;
+    for (std::uint32_t bank = refresh_.first_bank(); bank < refresh_.end_bank(); ++bank) {
+      if (!legal(Command::kRefreshBank, bank)) return false;
+    }
+    for (std::uint32_t bank = refresh_.first_bank(); bank < refresh_.end_bank(); ++bank) {
+      banks_[bank].refreshed = now_;
+    }
+    refreshed_bank_ = now_;
+    sent_.push_back({now_, Command::kRefreshBank, refresh_.first_bank(), 0, 0});
     count_activate();
     refresh_.refreshed();
     return true;
@@ -199,12 +224,13 @@ class ClockedChannel {
     Queue& requests = queue(wanted);
     ChannelRequest& request = requests[choice.at].request;
     Bank& b = banks_[request.bank];
+    Group& group = groups_[request.bank % groups_.size()];
     sent_.push_back({now_, choice.command, request.bank,
                      choice.command == Command::kActivate ? request.row : 0,
                      choice.column ? request.burst : 0});
     if (choice.command == Command::kActivate) {
       b.row = request.row;
-      b.activated = now_;
+      b.activated = group.activated = now_;
       count_activate();
     } else if (choice.command == Command::kPrecharge) {
       b.row = kNoRow;
@@ -212,6 +238,7 @@ class ClockedChannel {
     } else {
       (wanted == Direction::kRead ? b.read : b.written) = now_;
       (wanted == Direction::kRead ? read_ : written_) = now_;
+      (wanted == Direction::kRead ? group.read : group.written) = now_;
       ++request.burst;
       if (--request.bursts == 0) {
         requests.erase(requests.begin() + static_cast<std::ptrdiff_t>(choice.at));
@@ -223,6 +250,7 @@ class ClockedChannel {
   const Memspec::Timing t_;
   const std::uint32_t burst_;
   std::vector<Bank> banks_;
+  std::vector<Group> groups_;
   ClockedRefresh refresh_;
   // The last of the rank.
   std::optional<std::uint64_t> read_, written_, precharged_all_, refreshed_all_, refreshed_bank_;

@@ -21,13 +21,14 @@ struct DramWorkload {
   std::uint32_t banks = 8, rows = 64, longest = 4, writes_percent = 30;
   std::uint32_t gap = 1;  // at most, between two requests
   ChannelHardware hardware = {};
+  bool groups = false;  // bank groups, and what else only some standards have
 };
 
 DramConfig config_of(const ChannelHardware& hw) {
   DramConfig c;
   c.channels = 1;
   c.refresh = hw.refresh.mode;
-  c.refresh_postpone_max = hw.refresh.most_postponed;
+  c.refresh_postpone_max = static_cast<std::int32_t>(hw.refresh.most_postponed);
   c.front_end_ns = 10;  // 8 cycles of 1.25 ns
   c.scheduler = hw.hits_first ? SchedulerKind::kFrFcfs : SchedulerKind::kFcfs;
   c.age_cap_cycles = 1000000;
@@ -55,9 +56,29 @@ std::vector<ChannelRequest> requests_of(const DramWorkload& load, const Memspec&
   return requests;
 }
 
+void add_groups(Memspec& memspec) {
+  memspec.organisation.bank_groups = 4;
+  memspec.organisation.beats_per_clock = 4;
+  memspec.organisation.banks_per_refresh = 2;
+  Memspec::Timing& t = memspec.timing_cycles;
+  t.ccd = 2;
+  t.ccd_l = 5;
+  t.ccd_l_write = 7;
+  t.rrd = 4;
+  t.rrd_l = 9;
+  t.wtr_l = 10;
+  t.rcd_write = 8;
+  t.dqss = 0;
+  t.rtw = 13;
+  t.pbr2pbr = 30;
+  t.pbr2act = 6;
+  check_memspec(memspec, "groups");
+}
+
 void compare(const DramWorkload& load) {
   Memspec memspec = load_memspec(DramConfig{}.memspec);
   if (load.hardware.refresh.any_bank) memspec.refresh_order = RefreshOrder::kAny;
+  if (load.groups) add_groups(memspec);
   std::size_t commands = 0;
   std::uint64_t cycles = 0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -119,6 +140,10 @@ TEST_CASE("clocked reference: DRAM commands") {
            DramWorkload{"one bank", 1, 4, 4, 50},
            DramWorkload{"first come, first served", 8, 64, 4, 30, 1, in_order},
            DramWorkload{"tiny queues", 8, 64, 4, 50, 1, tiny},
+           DramWorkload{"bank groups, light", 8, 64, 4, 30, 200, {}, true},
+           DramWorkload{"bank groups, random rows", 8, 1000, 2, 30, 1, {}, true},
+           DramWorkload{"bank groups, few rows", 8, 2, 8, 30, 1, {}, true},
+           DramWorkload{"bank groups, writes only", 8, 8, 4, 100, 1, {}, true},
        }) {
     compare(load);
   }
@@ -139,8 +164,11 @@ TEST_CASE("clocked reference: DRAM commands with refresh") {
   tiny.read_entries = tiny.write_entries = 2;
   tiny.high_watermark = 2;
   tiny.low_watermark = 0;
-  ChannelHardware any = bank, any_late = refreshed(RefreshMode::kPerBank, 3), any_tiny = tiny;
-  any.refresh.any_bank = any_late.refresh.any_bank = any_tiny.refresh.any_bank = true;
+  ChannelHardware any = bank_late, any_late = refreshed(RefreshMode::kPerBank, 3), any_tiny = tiny;
+  ChannelHardware any_now = bank;
+  for (ChannelHardware* hardware : {&any, &any_late, &any_tiny, &any_now}) {
+    hardware->refresh.any_bank = true;
+  }
   for (const DramWorkload& load : {
            DramWorkload{"all banks, light", 8, 64, 4, 30, 200, all},
            DramWorkload{"all banks, heavy: random rows", 8, 1000, 2, 30, 1, all},
@@ -163,7 +191,14 @@ TEST_CASE("clocked reference: DRAM commands with refresh") {
            DramWorkload{"any bank, heavy: random rows", 8, 1000, 2, 30, 1, any},
            DramWorkload{"any bank, few banks asked for", 3, 4, 8, 30, 1, any},
            DramWorkload{"any bank, 3 late, medium", 8, 64, 4, 30, 40, any_late},
+           DramWorkload{"any bank, 3 late, heavy", 8, 1000, 2, 30, 1, any_late},
+           DramWorkload{"any bank, none late, medium", 8, 64, 4, 30, 40, any_now},
+           DramWorkload{"any bank, none late, heavy", 8, 1000, 2, 30, 1, any_now},
            DramWorkload{"any bank, tiny queues", 8, 64, 4, 50, 1, any_tiny},
+           DramWorkload{"any bank, bank groups, medium", 8, 64, 4, 30, 40, any, true},
+           DramWorkload{"any bank, bank groups, heavy", 8, 1000, 2, 30, 1, any_now, true},
+           DramWorkload{"any bank, bank groups, late", 8, 64, 4, 30, 1, any_late, true},
+           DramWorkload{"a bank, bank groups, heavy", 8, 2, 8, 30, 1, bank_late, true},
        }) {
     compare(load);
   }

@@ -267,7 +267,7 @@ TEST_CASE("dram controller: recorded requests can be asked again") {
     i.begin(i.make(tlm::TLM_WRITE_COMMAND, 4096, 256));
     file.commit();
   });
-  const auto requests = read_request_trace(path);
+  const auto requests = read_request_trace(path, 1.25).requests;
   std::remove(path.c_str());
   REQUIRE(requests.size() == 2);
   CHECK(requests[0].address == 96);

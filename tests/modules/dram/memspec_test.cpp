@@ -13,6 +13,7 @@
 #include "modules/config/strict_json.h"
 #include "modules/dram/address_mapping.h"
 #include "modules/dram/dram_config.h"
+#include "tests/support/scratch_folder.h"
 
 namespace sgs {
 namespace {
@@ -41,12 +42,14 @@ std::string memspec_refusal(const std::function<void(Memspec&)>& change) {
 
 TEST_CASE("memspecs: every shipped one loads, prints and reads back") {
   const std::vector<std::string> names = shipped_memspecs();
-  CHECK(names == std::vector<std::string>{"lpddr3_1600_4gb", "lpddr3_1600_8gb", "lpddr3_1866_4gb",
-                                          "lpddr3_2133_4gb", "lpddr4_3200_8gb"});
+  CHECK(names == std::vector<std::string>{"ddr5_4800_16gb", "hbm2e_3200_16gb", "hbm3_6400_16gb",
+                                          "lpddr3_1600_4gb", "lpddr3_1600_8gb", "lpddr3_1866_4gb",
+                                          "lpddr3_2133_4gb", "lpddr4_3200_8gb", "lpddr4x_4266_8gb",
+                                          "lpddr5_6400_8gb", "lpddr5x_8533_8gb"});
   for (const std::string& name : names) {
     const Memspec m = load_memspec(name);
     CHECK(m.name == name);
-    CHECK(m.burst_bytes() == 32);
+    CHECK(m.burst_bytes() == (name == "ddr5_4800_16gb" ? 64 : 32));
     ConfigDocument document;
     document.add_text(config_to_json(m), name);
     Memspec back;
@@ -65,6 +68,44 @@ TEST_CASE("memspecs: sizes and peaks") {
   CHECK(m.peak_gb_per_s() == Approx(6.4));
   CHECK(load_memspec("lpddr3_2133_4gb").peak_gb_per_s() == Approx(8.533).epsilon(1e-4));
   CHECK(load_memspec("lpddr4_3200_8gb").peak_gb_per_s() == Approx(6.4));
+  // Data rate and width, of a pseudo-channel where there are some.
+  for (const auto& [name, gb_per_s] : std::map<std::string, double>{{"lpddr4x_4266_8gb", 8.533},
+                                                                    {"lpddr5_6400_8gb", 12.8},
+                                                                    {"lpddr5x_8533_8gb", 17.067},
+                                                                    {"ddr5_4800_16gb", 19.2},
+                                                                    {"hbm2e_3200_16gb", 25.6},
+                                                                    {"hbm3_6400_16gb", 25.6}}) {
+    INFO(name);
+    CHECK(load_memspec(name).peak_gb_per_s() == Approx(gb_per_s).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("memspecs: each has a rule for heat, which keeps to its own limits") {
+  for (const std::string& name : shipped_memspecs()) {
+    INFO(name);
+    const Memspec cold = load_memspec(name), hot = load_memspec(name + kHotSuffix);
+    const std::uint32_t divisor = name == "ddr5_4800_16gb" ? 2 : 4;
+    CHECK(hot.name == name + kHotSuffix);
+    CHECK(hot.timing_cycles.refi == cold.timing_cycles.refi / divisor);
+    CHECK(hot.timing_cycles.refi_bank == cold.timing_cycles.refi_bank / divisor);
+    const double more = (hot.timing_cycles.rcd - cold.timing_cycles.rcd) * cold.clock_period_ns;
+    CHECK(more >= cold.hot.derating_ns);
+    CHECK(more < cold.hot.derating_ns + cold.clock_period_ns);
+    CHECK(hot.timing_cycles.wr == cold.timing_cycles.wr);
+    CHECK(memspec_path(name + kHotSuffix) == memspec_path(name));
+  }
+  // Of LPDDR3-1600, 1.875 ns are 2 cycles.
+  const Memspec::Timing t = load_memspec("lpddr3_1600_4gb:hot").timing_cycles;
+  CHECK(t.rcd == 17);
+  CHECK(t.rp_bank == 17);
+  CHECK(t.rp_all == 19);
+  CHECK(t.ras == 36);
+  CHECK(t.rc == 50);
+  CHECK(t.rrd == 10);
+  CHECK(t.refi == 780);
+  CHECK(t.rcd_write == 0);
+  CHECK(load_memspec("lpddr4_3200_8gb").timing_cycles.pbr2pbr == 0);
+  CHECK(load_memspec("lpddr4_3200_8gb:hot").timing_cycles.pbr2pbr == 144);
 }
 
 TEST_CASE("memspecs: published tables that disagree by a cycle are named") {
@@ -90,9 +131,9 @@ TEST_CASE("memspecs: the impossible is refused with the key's name") {
   CHECK(memspec_refusal([](Memspec& m) {
           m.timing_cycles.rcd = 0;
         }).find("file: timing_cycles.rcd: got 0") == 0);
-  CHECK(memspec_refusal([](Memspec& m) {
-          m.timing_cycles.ccd = 3;
-        }).find("file: timing_cycles.ccd: got 3, expected at least burst_length / 2 = 4") == 0);
+  CHECK(memspec_refusal([](Memspec& m) { m.timing_cycles.ccd = 3; })
+            .find("file: timing_cycles.ccd: got 3, expected at least burst_length / "
+                  "beats_per_clock = 4") == 0);
   CHECK(memspec_refusal([](Memspec& m) {
           m.timing_cycles.ras = 10;
         }).find("file: timing_cycles.ras: got 10, expected at least rcd 15") == 0);
@@ -105,6 +146,48 @@ TEST_CASE("memspecs: the impossible is refused with the key's name") {
   CHECK(memspec_refusal([](Memspec& m) {
           m.default_currents = "none";
         }).find("file: default_currents: got 'none'") == 0);
+}
+
+TEST_CASE("memspecs: data rate, groups and sets of banks that cannot be are refused") {
+  const auto of_lpddr5 = [](const std::function<void(Memspec&)>& change) {
+    Memspec m = load_memspec("lpddr5_6400_8gb");
+    change(m);
+    return refusal([&] { check_memspec(m, "file"); });
+  };
+  using Change = std::function<void(Memspec&)>;
+  for (const auto& [expected, change] : std::map<std::string, Change>{
+           {"organisation.beats_per_clock: got 3, expected a power of two, at most burst_length 16",
+            [](Memspec& m) { m.organisation.beats_per_clock = 3; }},
+           {"organisation.beats_per_clock: got 32",
+            [](Memspec& m) { m.organisation.beats_per_clock = 32; }},
+           {"organisation.pseudo_channels: got 4, expected a power of two, at most burst_length / "
+            "beats_per_clock = 2",
+            [](Memspec& m) { m.organisation.pseudo_channels = 4; }},
+           {"organisation.bank_groups: got 32, expected a power of two, at most banks 16",
+            [](Memspec& m) { m.organisation.bank_groups = 32; }},
+           {"organisation.banks_per_refresh: got 3",
+            [](Memspec& m) { m.organisation.banks_per_refresh = 3; }},
+           {"timing_cycles.ccd_l: got 4, expected 0: organisation.bank_groups is 1",
+            [](Memspec& m) { m.organisation.bank_groups = 1; }},
+           {"timing_cycles.ccd_l: got 1, expected at least ccd 2",
+            [](Memspec& m) { m.timing_cycles.ccd_l = 1; }},
+           {"timing_cycles.rrd_l: got 0, expected at least rrd 4",
+            [](Memspec& m) { m.timing_cycles.rrd_l = 0; }},
+           {"timing_cycles.wtr_l: got 4, expected at least wtr 5",
+            [](Memspec& m) { m.timing_cycles.wtr_l = 4; }},
+           {"timing_cycles.ccd_l_write: got 1, expected at least ccd 2",
+            [](Memspec& m) { m.timing_cycles.ccd_l_write = 1; }},
+           {"timing_cycles.rcd_write: got 35, expected at most ras 34",
+            [](Memspec& m) { m.timing_cycles.rcd_write = 35; }},
+           {"timing_cycles.pbr2pbr: got 97, expected at most rfc_bank 96",
+            [](Memspec& m) { m.timing_cycles.pbr2pbr = 97; }},
+           {"timing_cycles.pbr2act: got 3, expected at least rrd 4",
+            [](Memspec& m) { m.timing_cycles.pbr2act = 3; }},
+           {"timing_cycles.refi_bank: got 72, expected more than pbr2pbr 72",
+            [](Memspec& m) { m.timing_cycles.refi_bank = 72; }}}) {
+    INFO(expected);
+    CHECK(of_lpddr5(change).find("file: " + expected) == 0);
+  }
 }
 
 TEST_CASE("memspecs: one default source is enough, and a number may have its own") {
@@ -126,7 +209,12 @@ TEST_CASE("memspecs: the I/O energy is the device's unless the configuration has
   CHECK(config.io_pj_per_bit_of(m) == 5);
   config.io_pj_per_bit = 0;
   CHECK(config.io_pj_per_bit_of(m) == 0);
-  for (const std::string& name : shipped_memspecs()) CHECK(load_memspec(name).io_pj_per_bit == 3);
+  for (const std::string& name : shipped_memspecs()) {
+    INFO(name);
+    const Memspec shipped = load_memspec(name);
+    CHECK((shipped.io_pj_per_bit > 0 && shipped.io_pj_per_bit <= 3));
+    CHECK(shipped.sources.count("io_pj_per_bit") == 1);
+  }
 }
 
 TEST_CASE("memspecs: the commented template reads back as the memspec, each number explained") {
@@ -189,7 +277,111 @@ TEST_CASE("memspecs: negative and fractional cycles are refused by the reader") 
   }
   CHECK(refusal([] {
           load_memspec("ddr9");
-        }).find("dram.memspec: got 'ddr9', expected a JSON file or one of lpddr3_1600_4gb") == 0);
+        }).find("dram.memspec: got 'ddr9', expected a JSON file or one of ddr5_4800_16gb, ") == 0);
+}
+
+// As DRAMSys has them, with what is asked for here.
+const char* const kDramsysLpddr4 = R"({"memspec": {"memoryId": "mine", "memoryType": "LPDDR4",
+  "memarchitecturespec": {"burstLength": 16, "dataRate": 2, "nbrOfBanks": 8, "nbrOfColumns": 1024,
+    "nbrOfRanks": 1, "nbrOfRows": 65536, "width": 16, "nbrOfDevices": 1, "nbrOfChannels": 1,
+    "nbrOfBankGroups": 1, "maxBurstLength": 16},
+  "mempowerspec": {"idd01": 3.5e-3, "idd02": 45.0e-3, "idd2n1": 2.0e-3, "idd2n2": 27.0e-3,
+    "idd2p1": 1.2e-3, "idd2p2": 3.0e-3, "idd3n1": 2.25e-3, "idd3n2": 30.0e-3, "idd3p1": 1.2e-3,
+    "idd3p2": 9.0e-3, "idd4r1": 2.25e-3, "idd4r2": 275.0e-3, "idd4rq": 150.0e-3, "idd4w1": 2.25e-3,
+    "idd4w2": 210.0e-3, "idd51": 10.0e-3, "idd52": 90.0e-3, "idd61": 0.3e-3, "idd62": 0.5e-3,
+    "vdd1": 1.8, "vdd2": 1.1, "vddq": 1.1},
+  "memtimingspec": {"CCD": 8, "CCDMW": 32, "CKE": 12, "CMDCKE": 3, "DQS2DQ": 2, "DQSCK": 6,
+    "DQSS": 1, "ESCKE": 3, "FAW": 64, "PPD": 4, "RCD": 29, "REFI": 6246, "REFIpb": 780,
+    "RFCab": 448, "RFCpb": 224, "RL": 28, "RAS": 68, "RPab": 34, "RPpb": 29, "RCab": 102,
+    "RCpb": 97, "RPST": 0, "RRD": 16, "RTP": 12, "SR": 24, "WL": 14, "WPRE": 2, "WR": 29,
+    "WTR": 16, "XP": 12, "XSR": 460, "RTRS": 1, "tCK": 625e-12}}})";
+
+TEST_CASE("memspecs: DRAMSys's LPDDR4-3200 is the shipped one, but for what it does not state") {
+  const test::ScratchFolder scratch;
+  const Memspec theirs = load_memspec(scratch.write("a.json", kDramsysLpddr4));
+  Memspec ours = load_memspec("lpddr4_3200_8gb");
+  CHECK(theirs.name == "mine");
+  CHECK(theirs.refresh_order == RefreshOrder::kAny);
+  CHECK(theirs.io_pj_per_bit == Approx(0.150 * 1.1 / (16 * 3.2e9) * 1e12));
+  ours.timing_cycles.dqsck_min = 6;
+  ours.timing_cycles.ras_max = 9 * 6246;
+  Memspec numbers = theirs;  // all but what is said of them, and the energy
+  numbers.name = ours.name;
+  numbers.description = ours.description;
+  numbers.sources = ours.sources;
+  numbers.io_pj_per_bit = ours.io_pj_per_bit;
+  numbers.currents = ours.currents;
+  numbers.hot = ours.hot;
+  numbers.default_currents = ours.default_currents;
+  CHECK(config_to_json(numbers) == config_to_json(ours));
+  const Memspec::Currents a = theirs.currents.at("dramsys"), b = ours.currents.at("dramsys_8gb");
+  CHECK(a.vdd1_v == b.vdd1_v);
+  CHECK(a.vdd2_v == b.vdd2_v);
+  for (double Memspec::Rail::*idd :
+       {&Memspec::Rail::idd0, &Memspec::Rail::idd2p, &Memspec::Rail::idd2n, &Memspec::Rail::idd3p,
+        &Memspec::Rail::idd3n, &Memspec::Rail::idd4r, &Memspec::Rail::idd4w, &Memspec::Rail::idd5,
+        &Memspec::Rail::idd6}) {
+    CHECK(a.vdd1_ma.*idd == Approx(b.vdd1_ma.*idd));
+    CHECK(a.vdd2_ma.*idd == Approx(b.vdd2_ma.*idd));
+  }
+  const std::vector<std::string> notes = check_memspec(theirs, "a.json");
+  REQUIRE(notes.size() >= 2);
+  CHECK(notes[0].find("io_pj_per_bit 3.22 is idd4rq x vddq") != std::string::npos);
+  CHECK(notes[1].find("not stated: write_latency_b 14, dqsck_min 6, ras_max 56214") !=
+        std::string::npos);
+}
+
+TEST_CASE("memspecs: DRAMSys's other forms, and what has none") {
+  const test::ScratchFolder scratch;
+  const auto with = [&](std::vector<std::pair<std::string, std::string>> changes) {
+    std::string text = kDramsysLpddr4;
+    for (const auto& [from, to] : changes) {
+      REQUIRE(text.find(from) != std::string::npos);
+      text.replace(text.find(from), from.size(), to);
+    }
+    return scratch.write("a.json", text);
+  };
+  // A DDR4 has bank groups, and refreshes all banks at once.
+  const Memspec ddr4 = load_memspec(with({{"LPDDR4", "DDR4"},
+                                          {"\"nbrOfBankGroups\": 1", "\"nbrOfBankGroups\": 4"},
+                                          {"\"CCD\": 8", "\"CCD_S\": 8, \"CCD_L\": 10"},
+                                          {"\"RRD\": 16", "\"RRD_S\": 16, \"RRD_L\": 20"},
+                                          {"\"WTR\": 16", "\"WTR_S\": 6, \"WTR_L\": 16"},
+                                          {"\"RFCpb\": 224, ", ""},
+                                          {"\"REFIpb\": 780,", ""},
+                                          {"\"nbrOfDevices\": 1", "\"nbrOfDevices\": 2"}}));
+  CHECK(ddr4.organisation.bank_groups == 4);
+  CHECK(ddr4.organisation.width_bits == 32);
+  CHECK(ddr4.refresh_sets() == 1);
+  CHECK(ddr4.timing_cycles.ccd_l == 10);
+  CHECK(ddr4.timing_cycles.rrd_l == 20);
+  CHECK(ddr4.timing_cycles.wtr == 6);
+  CHECK(ddr4.timing_cycles.wtr_l == 16);
+  CHECK(ddr4.timing_cycles.rfc_bank == 448);
+  CHECK(ddr4.timing_cycles.refi_bank == 6246);
+  // HBM counts columns in bursts, has pseudo-channels, and may have no currents.
+  const Memspec hbm =
+      load_memspec(with({{"LPDDR4", "HBM2"},
+                         {"\"nbrOfColumns\": 1024", "\"nbrOfColumns\": 32"},
+                         {"\"width\": 16", "\"nbrOfPseudoChannels\": 2, \"width\": 64"},
+                         {"\"RCD\": 29", "\"RCDRD\": 12, \"RCDWR\": 6"},
+                         {"mempowerspec", "nothing"}}));
+  CHECK(hbm.organisation.columns == 512);
+  CHECK(hbm.organisation.pseudo_channels == 2);
+  CHECK(hbm.timing_cycles.rcd == 12);
+  CHECK(hbm.timing_cycles.rcd_write == 6);
+  CHECK(hbm.notes.front().find("no currents") != std::string::npos);
+  CHECK(refusal([&] {
+          load_memspec(with({{"LPDDR4", "WIDEIO_SDR"}}));
+        }).find("a.json: memspec.memoryType: got \"WIDEIO_SDR\", expected one of DDR3, DDR4") !=
+        std::string::npos);
+  CHECK(refusal([&] {
+          load_memspec(with({{"\"RCD\": 29", "\"RCD\": 2.5"}}));
+        }).find("a.json: memspec.memtimingspec.RCD: got 2.5, expected a whole number") !=
+        std::string::npos);
+  CHECK(refusal([&] {
+          load_memspec(with({{"\"RAS\": 68, ", ""}}));
+        }).find("a.json: timing_cycles.ras: got 0 or nothing") != std::string::npos);
 }
 
 TEST_CASE("dram config: combinations that cannot be are refused with the key's name") {
@@ -216,12 +408,47 @@ TEST_CASE("dram config: combinations that cannot be are refused with the key's n
         "dram.write_low_watermark: got 24, expected less than write_high_watermark 24");
   CHECK(config_refusal([](DramConfig& c) { c.write_high_watermark = 33; }) ==
         "dram.write_high_watermark: got 33, expected 1 to write_queue_entries 32");
+  CHECK(config_refusal([](DramConfig& c) {
+          c.memspec = "ddr5_4800_16gb";
+          c.refresh_postpone_max = 5;
+        }) ==
+        "dram.refresh_postpone_max: got 5, expected at most the memspec's "
+        "refresh_postpone_limit 4");
+  CHECK(config_refusal([](DramConfig& c) {
+          c.memspec = "lpddr5_6400_8gb";
+          c.mapping = "row:rank:bank:column:channel";
+        }) == "dram.mapping: got 'row:rank:bank:column:channel', expected 2 bits of group, got 0");
   CHECK(config_refusal([](DramConfig& c) { c.current_set = "x"; }) ==
         "dram.current_set: got x, expected one of drampower4, micron_edf8132a1mc");
   CHECK(config_refusal([](DramConfig& c) {
           c.power_down_idle_cycles = 100;
           c.self_refresh_idle_cycles = 100;
         }).find("dram.self_refresh_idle_cycles: got 100") == 0);
+}
+
+TEST_CASE("address mapping: groups are low bits of a bank, pseudo-channels of a channel") {
+  DramConfig config;
+  config.memspec = "hbm3_6400_16gb";
+  config.channels = 2;
+  const Memspec m = load_memspec(config.memspec);
+  CHECK(config.buses(m) == 4);
+  const AddressMapping mapping(config, m);
+  CHECK(mapping.capacity_bytes() == std::uint64_t{4} * 16 * 16384 * 1024);
+  CHECK(mapping.decode(256 * 3).channel == 3);
+  CHECK(mapping.decode(256 * 4).bank == 1);          // the next group
+  CHECK(mapping.decode(256 * 4 * 4).burst == 8);     // the same row
+  CHECK(mapping.decode(256 * 4 * 4 * 4).bank == 4);  // the next bank of a group
+  CHECK(mapping.decode(256 * 4 * 4 * 4 * 4).row == 1);
+  std::uint64_t address = 1;
+  for (const BankHash hash : {BankHash::kNone, BankHash::kXor}) {
+    config.bank_hash = hash;
+    const AddressMapping both(config, m);
+    for (int i = 0; i < 1000; ++i) {
+      address = address * 6364136223846793005u + 1442695040888963407u;
+      const std::uint64_t aligned = (address >> 20) % both.capacity_bytes() & ~std::uint64_t{31};
+      CHECK(both.encode(both.decode(aligned)) == aligned);
+    }
+  }
 }
 
 TEST_CASE("address mapping: fields lie where the string says, and encode is the inverse") {

@@ -269,37 +269,96 @@ TEST_CASE("refresh: per bank goes round the banks and leaves the others working"
   CHECK(b.sink.text() == "REFB@3510 ACT@3518 RD@3533");
 }
 
-TEST_CASE("refresh: one that may go to any bank avoids those in use, eight times at most") {
-  DramConfig config = quiet_config();
-  config.refresh = RefreshMode::kPerBank;
-  Memspec memspec = load_memspec(config.memspec);
-  memspec.refresh_order = RefreshOrder::kAny;
+// A channel whose controller names the bank of a refresh, or else its device.
+struct RefreshBench {
+  RefreshBench(const DramConfig& config, RefreshOrder order)
+      : memspec(with(order)), channel(config, memspec, 0, sink) {}
+  static Memspec with(RefreshOrder order) {
+    Memspec memspec = load_memspec(DramConfig{}.memspec);
+    memspec.refresh_order = order;
+    return memspec;
+  }
+  // Cycle and bank of each.
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> refreshes() const {
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> of;
+    for (const CommandRecord& r : sink.records) {
+      if (r.command == Command::kRefreshBank) of.emplace_back(r.cycle, r.bank);
+    }
+    return of;
+  }
+  const Memspec memspec;
   test::RecordingSink sink;
-  QueuedChannel channel(config, memspec, 0, sink);
-  // Requests for banks 0 to 2 without a gap, until nine refreshes are owed after the first round.
-  std::uint64_t cycle = 1;
-  for (std::uint32_t i = 0; cycle < 390 * 30; ++i) {
-    channel.advance(cycle);
-    while (channel.full(Direction::kRead)) channel.advance(cycle = channel.next_decision() + 1);
+  QueuedChannel channel;
+};
+
+TEST_CASE("refresh: one that may go to any bank avoids those in use, as often as is allowed") {
+  for (const std::int32_t most : {-1, 0, 3, 8}) {
+    DramConfig config = quiet_config();
+    config.refresh = RefreshMode::kPerBank;
+    config.refresh_postpone_max = most;
+    RefreshBench b(config, RefreshOrder::kAny);
+    // Requests for banks 0 to 2 without a gap, until more are owed after the first round.
+    std::uint64_t cycle = 1;
+    for (std::uint32_t i = 0; cycle < 390 * 30; ++i) {
+      b.channel.advance(cycle);
+      while (b.channel.full(Direction::kRead))
+        b.channel.advance(cycle = b.channel.next_decision() + 1);
+      ChannelRequest request;
+      request.bank = i % 3;
+      request.row = i;
+      request.bursts = 1;
+      b.channel.push(request, cycle);
+    }
+    const auto refreshes = b.refreshes();
+    REQUIRE(refreshes.size() > 8);
+    INFO("at most " << most);
+    // Idle banks at once, one each tREFIpb; banks in use when more are owed than may be.
+    for (std::uint32_t i = 0; i < 5; ++i) {
+      CHECK(refreshes[i].second == i + 3);
+      CHECK(refreshes[i].first / 390 == i + 1);
+    }
+    const std::uint32_t late = most < 0 ? 8 : static_cast<std::uint32_t>(most);
+    for (std::uint32_t i = 5; i < 8; ++i) {
+      CHECK(refreshes[i].second == i - 5);
+      CHECK(refreshes[i].first / 390 == i + 1 + late);
+    }
+  }
+}
+
+TEST_CASE("refresh: a request that is not through the front end is not seen") {
+  const auto refreshed = [](RefreshOrder order, std::uint64_t arrival) {
+    DramConfig config = quiet_config();
+    config.refresh = RefreshMode::kPerBank;
+    config.refresh_postpone_max = 2;
+    config.front_end_ns = 10;  // 8 cycles
+    RefreshBench b(config, order);
+    b.channel.advance(arrival);
+    b.channel.push(ChannelRequest{}, arrival);  // of bank 0
+    b.channel.advance(600);
+    return b.refreshes().at(0);
+  };
+  using Refresh = std::pair<std::uint64_t, std::uint32_t>;
+  CHECK(refreshed(RefreshOrder::kAny, 383) == Refresh{390, 0});
+  CHECK(refreshed(RefreshOrder::kAny, 382) == Refresh{390, 1});
+  CHECK(refreshed(RefreshOrder::kInTurn, 383) == Refresh{390, 0});
+  CHECK(refreshed(RefreshOrder::kInTurn, 382) > Refresh{390, 0});  // postponed
+}
+
+TEST_CASE("refresh: after self-refresh the device counts its banks from the first again") {
+  for (const RefreshOrder order : {RefreshOrder::kInTurn, RefreshOrder::kAny}) {
+    DramConfig config = quiet_config();
+    config.refresh = RefreshMode::kPerBank;
+    config.self_refresh_idle_cycles = 1000;
+    RefreshBench b(config, order);
+    b.channel.advance(50000);
+    REQUIRE(b.sink.count(Command::kSelfRefreshEnter) == 1);
+    REQUIRE(b.refreshes().back().second == 1);
     ChannelRequest request;
-    request.bank = i % 3;
-    request.row = i;
-    request.bursts = 1;
-    channel.push(request, cycle);
-  }
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> refreshes;
-  for (const CommandRecord& r : sink.records) {
-    if (r.command == Command::kRefreshBank) refreshes.emplace_back(r.cycle, r.bank);
-  }
-  REQUIRE(refreshes.size() > 8);
-  // Idle banks at once, one each tREFIpb; banks in use when more than eight are owed.
-  for (std::uint32_t i = 0; i < 5; ++i) {
-    CHECK(refreshes[i].second == i + 3);
-    CHECK(refreshes[i].first / 390 == i + 1);
-  }
-  for (std::uint32_t i = 5; i < 8; ++i) {
-    CHECK(refreshes[i].second == i - 5);
-    CHECK(refreshes[i].first / 390 == i + 1 + 8);
+    request.bank = 5;
+    b.channel.push(request, 50000);
+    b.channel.advance(51000);
+    CHECK(b.refreshes().at(2).second == 0);
+    CHECK(b.refreshes().at(3).second == 1);
   }
 }
 

@@ -112,7 +112,7 @@ DramConfig random_config(std::uint32_t index) {
   c.memspec = memspecs[index % memspecs.size()];
   c.channels = 1;
   c.ranks = 1u << below(2);
-  c.mapping = "row:rank:bank:column:channel";
+  c.mapping = "row:rank:bank:group:column:channel";
   c.write_latency_set = below(2) ? WriteLatencySet::kA : WriteLatencySet::kB;
   c.read_strobe = below(2) ? ReadStrobe::kMin : ReadStrobe::kMax;
   c.scheduler = below(4) ? SchedulerKind::kFrFcfs : SchedulerKind::kFcfs;
@@ -126,7 +126,8 @@ DramConfig random_config(std::uint32_t index) {
   c.back_end_ns = below(3) * 10;
   c.refresh = below(8) == 0 ? RefreshMode::kOff
                             : (below(2) ? RefreshMode::kAllBank : RefreshMode::kPerBank);
-  c.refresh_postpone_max = below(9);
+  const std::uint32_t most = load_memspec(c.memspec).refresh_postpone_limit;
+  c.refresh_postpone_max = static_cast<std::int32_t>(below(most + 2)) - 1;
   c.power_down_idle_cycles = below(2) * (1 + below(200));
   c.self_refresh_idle_cycles = below(2) * (c.power_down_idle_cycles + 1 + below(3000));
   return c;

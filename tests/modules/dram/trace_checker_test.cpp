@@ -120,6 +120,93 @@ TEST_CASE("trace checker: every constraint is found at c - 1 and satisfied at c"
   }
 }
 
+// Bank groups of 4: banks 0, 4 and 8 are of one, 1 of another. Times are those of LPDDR3-1600, but
+// for what is set here.
+Memspec grouped_memspec() {
+  Memspec memspec = load_memspec("lpddr3_1600_4gb");
+  memspec.organisation.banks = 16;
+  memspec.organisation.bank_groups = 4;
+  memspec.organisation.banks_per_refresh = 2;
+  memspec.organisation.beats_per_clock = 4;
+  Memspec::Timing& t = memspec.timing_cycles;
+  t.ccd = 2;
+  t.ccd_l = 6;
+  t.ccd_l_write = 9;
+  t.rrd_l = 12;
+  t.wtr_l = 11;
+  t.rcd_write = 9;
+  t.dqss = 3;
+  t.rtw = 21;
+  t.pbr2pbr = 30;
+  t.pbr2act = 10;
+  memspec.refresh_order = RefreshOrder::kAny;
+  check_memspec(memspec, "grouped");
+  return memspec;
+}
+
+TEST_CASE("trace checker: constraints of bank groups, and those that some standards have") {
+  const std::vector<Planted> rows = {
+      {"tCCD", {{0, C::kActivate}, {15, C::kActivate, 0, 1}, {40, C::kRead}}, {42, C::kRead, 0, 1}},
+      {"tCCD_L",
+       {{0, C::kActivate}, {15, C::kActivate, 0, 4}, {40, C::kRead}},
+       {46, C::kRead, 0, 4}},
+      {"tCCD_L_WR",
+       {{0, C::kActivate}, {15, C::kActivate, 0, 4}, {40, C::kWrite}},
+       {49, C::kWrite, 0, 4}},
+      {"tRRD", {{0, C::kActivate}}, {8, C::kActivate, 0, 1}},
+      {"tRRD_L", {{0, C::kActivate}}, {12, C::kActivate, 0, 8}},
+      {"tWTR",
+       {{0, C::kActivate}, {15, C::kActivate, 0, 1}, {40, C::kWrite}},
+       {40 + 6 + 3 + 2 + 6, C::kRead, 0, 1}},
+      {"tWTR_L",
+       {{0, C::kActivate}, {15, C::kActivate, 0, 4}, {40, C::kWrite}},
+       {40 + 6 + 3 + 2 + 11, C::kRead, 0, 4}},
+      {"tRCD", {{0, C::kActivate}}, {9, C::kWrite}},
+      {"tRCD", {{0, C::kActivate}}, {15, C::kRead}},
+      {"read to write", {{0, C::kActivate}, {15, C::kRead}}, {15 + 21, C::kWrite}},
+      {"tWR", {{0, C::kActivate}, {40, C::kWrite}}, {40 + 6 + 3 + 2 + 12, C::kPrecharge}},
+      {"tpbR2pbR", {{0, C::kRefreshBank}}, {30, C::kRefreshBank, 0, 2}},
+      {"tpbR2act", {{0, C::kRefreshBank}}, {10, C::kActivate, 0, 2}},
+      {"tRFCpb", {{0, C::kRefreshBank}}, {48, C::kActivate, 0, 1}},  // refreshed with bank 0
+      {"tRPpb", {{0, C::kActivate, 0, 1}, {34, C::kPrecharge, 0, 1}}, {49, C::kRefreshBank}},
+  };
+  CommandTraceHeader header;
+  header.refresh = RefreshMode::kPerBank;
+  for (const Planted& p : rows) {
+    INFO(p.constraint << " at cycle " << p.last.cycle);
+    for (const bool early : {false, true}) {
+      TraceChecker checker(grouped_memspec(), header);
+      for (const Step& step : p.before) CHECK_FALSE(checker.check(record(step)));
+      Step last = p.last;
+      if (early) --last.cycle;
+      const auto found = checker.check(record(last));
+      CHECK(found.has_value() == early);
+      if (found) CHECK(found->constraint == p.constraint);
+    }
+  }
+  const auto refreshed = [&](std::uint8_t bank, bool open) {
+    TraceChecker checker(grouped_memspec(), header);
+    if (open) checker.check(record({0, C::kActivate, 0, 3}));
+    const auto found = checker.check(record({100, C::kRefreshBank, 0, bank}));
+    return found ? found->constraint : "";
+  };
+  CHECK(refreshed(2, false).empty());
+  CHECK(refreshed(2, true) == "refresh of an open bank");
+  CHECK(refreshed(1, false) == "refresh of banks that do not go together");
+}
+
+TEST_CASE("trace checker: pseudo-channels are channels of their own") {
+  const Memspec memspec = load_memspec("hbm2e_3200_16gb");
+  CommandTraceHeader header;
+  TraceChecker checker(memspec, header);
+  CommandRecord activate = record({0, C::kActivate});
+  CHECK_FALSE(checker.check(activate));
+  activate.channel = 1;
+  CHECK_FALSE(checker.check(activate));
+  activate.channel = 2;
+  CHECK(checker.check(activate)->constraint == "no such channel, rank, bank, row or burst");
+}
+
 TEST_CASE("trace checker: tRC binds where RAS + RP is shorter") {
   // With the published numbers RAS + RPpb (49) hides RC (48).
   Memspec memspec = load_memspec("lpddr3_1600_4gb");
@@ -205,6 +292,19 @@ TEST_CASE(
   CHECK(constraint_of(O::kInTurn, {0, 2}) == "refresh out of turn");
   CHECK(constraint_of(O::kAny, {5, 0, 7, 1, 2, 3, 4, 6, 6, 5}).empty());
   CHECK(constraint_of(O::kAny, {5, 0, 5}) == "refreshed again before others");
+}
+
+TEST_CASE("trace checker: self-refresh begins the device's count of banks again") {
+  for (const std::uint8_t bank : {std::uint8_t{0}, std::uint8_t{1}}) {
+    TraceChecker checker = make_checker(RefreshMode::kPerBank);
+    for (const Step& step : std::vector<Step>{
+             {0, C::kRefreshBank}, {390, C::kSelfRefreshEnter}, {500, C::kSelfRefreshExit}}) {
+      CHECK_FALSE(checker.check(record(step)));
+    }
+    const auto found = checker.check(record({800, C::kRefreshBank, 0, bank}));
+    CHECK(found.has_value() == (bank == 1));
+    if (found) CHECK(found->constraint == "refresh out of turn");
+  }
 }
 
 TEST_CASE("trace checker: as many per-bank refreshes may be postponed as all-bank ones cover") {

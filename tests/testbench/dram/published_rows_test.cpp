@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "testbench/dram/bench_table.h"
+#include "testbench/dram/part_streams.h"
 
 namespace sgs {
 namespace {
@@ -50,6 +51,39 @@ TEST_CASE("published rows: as many requests as a row wants, and no more than ask
       CHECK(few[i].bench.requests == 300);
     }
   }
+}
+
+TEST_CASE("part streams: every shipped memory is within its bounds, in sequence not the slower") {
+  for (const std::string& memspec : shipped_memspecs()) {
+    const PartStreams part = measure_part(memspec, 20000);
+    for (std::size_t i = 0; i < kPartStreams; ++i) {
+      INFO(memspec << " " << kPartStreamNames[i] << ": " << part.gb_per_s[i] << " of "
+                   << part.bound_gb_per_s[i]);
+      CHECK(part.gb_per_s[i] <= part.bound_gb_per_s[i]);
+      CHECK(part.bound_gb_per_s[i] <= part.peak_gb_per_s);
+    }
+    INFO(memspec);
+    CHECK(part.gb_per_s[0] >= part.gb_per_s[2]);
+    CHECK(part.gb_per_s[1] >= part.gb_per_s[3]);
+    CHECK(part.gb_per_s[4] >= part.gb_per_s[5]);
+  }
+}
+
+TEST_CASE("part streams: bounds by hand") {
+  const Memspec lpddr3 = load_memspec("lpddr3_1600_4gb"), hbm = load_memspec("hbm2e_3200_16gb");
+  const auto bound = [](const Memspec& memspec, Pattern pattern, std::uint32_t bytes) {
+    StreamSpec stream;
+    stream.pattern = pattern;
+    stream.request_bytes = bytes;
+    return part_bound_gb_per_s(memspec, stream);
+  };
+  CHECK(bound(lpddr3, Pattern::kSequential, 64) == Approx(6.4));
+  CHECK(bound(lpddr3, Pattern::kRandom, 32) == Approx(4 * 32 / (40 * 1.25)));  // tFAW
+  CHECK(bound(hbm, Pattern::kSequential, 32) == Approx(2 * 25.6));             // pseudo-channels
+  CHECK(bound(hbm, Pattern::kRandom, 64) == Approx(2 * 64 / (7 * 0.625)));     // tRRD
+  // A burst of 64 bytes for each 32.
+  CHECK(bound(load_memspec("ddr5_4800_16gb"), Pattern::kSequential, 32) ==
+        Approx(19.2 / 2).epsilon(1e-4));
 }
 
 TEST_CASE("published rows: an unexplained difference is seen") {

@@ -36,22 +36,5 @@ TEST_CASE("refresh: a stream ends at the limits that check_memspec draws") {
   }
 }
 
-TEST_CASE("refresh: no shipped memspec reads in sequence slower than at random") {
-  for (const std::string& name : shipped_memspecs()) {
-    INFO(name);
-    const auto gb_per_s = [&](Pattern pattern) {
-      StreamBench bench;
-      bench.dram.memspec = name;
-      bench.dram.channels = 1;
-      bench.stream.pattern = pattern;
-      bench.stream.request_bytes = 64;
-      bench.window = 32;
-      bench.requests = 20000;
-      return run_stream_in_child(bench).gb_per_s;
-    };
-    CHECK(gb_per_s(Pattern::kSequential) >= gb_per_s(Pattern::kRandom));
-  }
-}
-
 }  // namespace
 }  // namespace sgs

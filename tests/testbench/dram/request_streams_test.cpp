@@ -51,7 +51,7 @@ class RequestFile {
   ~RequestFile() { std::remove(path_.c_str()); }
   std::string refusal() const {
     try {
-      read_request_trace(path_);
+      read_request_trace(path_, 1.25);
     } catch (const InputError& error) {
       return std::string(error.what()).substr(path_.size());
     }
@@ -66,7 +66,9 @@ class RequestFile {
 
 TEST_CASE("request trace: addresses, directions, times, comments") {
   const RequestFile file("# a comment\n0x40 R\n128 W 10.5\n\n192 R 10.5\n");
-  const auto requests = read_request_trace(file.path());
+  const RequestTrace trace = read_request_trace(file.path(), 1.25);
+  CHECK(trace.form.empty());
+  const std::vector<MemoryRequest>& requests = trace.requests;
   REQUIRE(requests.size() == 3);
   CHECK(requests[0].address == 64);
   CHECK_FALSE(requests[0].write);
@@ -81,7 +83,7 @@ TEST_CASE("request trace: what is written reads back") {
   writer.add({0x7fffffc0, true, 1234567.0625, 256});
   writer.add({64, false, 1234568.0, 20});
   output.commit();
-  const auto requests = read_request_trace(file.path());
+  const std::vector<MemoryRequest> requests = read_request_trace(file.path(), 1.25).requests;
   REQUIRE(requests.size() == 2);
   CHECK(requests[0].address == 0x7fffffc0);
   CHECK(requests[0].write);
@@ -103,7 +105,52 @@ TEST_CASE("request trace: bad lines are refused with their number") {
   CHECK(RequestFile("0 R nan\n").refusal() != "accepted");
   CHECK(RequestFile("0 R 5\n0 R 4\n").refusal() ==
         ": line 2: got '0 R 4', expected a time in ns that does not decrease");
-  CHECK_THROWS_AS(read_request_trace("/nowhere/x"), InputError);
+  CHECK_THROWS_AS(read_request_trace("/nowhere/x", 1.25), InputError);
+}
+
+TEST_CASE("request trace: those of DRAMSys and DRAMsim3 are recognised by their first request") {
+  const RequestFile stl("# comment\n2:\twrite\t0x40\n3: (16) read 0x80\n3 write 0x0 0xffff\n");
+  const RequestTrace dramsys = read_request_trace(stl.path(), 2.5);
+  CHECK(dramsys.form == "DRAMSys");
+  REQUIRE(dramsys.requests.size() == 3);
+  CHECK(dramsys.requests[0].write);
+  CHECK(dramsys.requests[0].address == 0x40);
+  CHECK(dramsys.requests[0].not_before_ns == 5);
+  CHECK(dramsys.requests[0].bytes == 0);
+  CHECK_FALSE(dramsys.requests[1].write);
+  CHECK(dramsys.requests[1].bytes == 16);
+  CHECK(dramsys.requests[2].not_before_ns == 7.5);
+  const RequestFile spaced("0x2000D5C0 READ  30\n0x1FF96FC0 WRITE   160\n");
+  const RequestTrace dramsim3 = read_request_trace(spaced.path(), 2.5);
+  CHECK(dramsim3.form == "DRAMsim3");
+  REQUIRE(dramsim3.requests.size() == 2);
+  CHECK(dramsim3.requests[0].address == 0x2000d5c0);
+  CHECK_FALSE(dramsim3.requests[0].write);
+  CHECK(dramsim3.requests[1].write);
+  CHECK(dramsim3.requests[1].not_before_ns == 400);
+}
+
+TEST_CASE("request trace: a permuted one, a mixture and relative times are refused") {
+  for (const char* text : {"10 R 0x40\n",                                    // time first
+                           "R 0x40 10\n",                                    // direction first
+                           "0x40 10 R\n",                                    // direction last
+                           "# nanoseconds R|W address bytes\n10 R 64 32\n",  // by its header
+                           "0x40 2: write\n",                                // DRAMSys's
+                           "write 0x40 2\n", "2: 0x40 write\n", "2: write 64\n", "READ 0x40 30\n",
+                           "30 READ 0x40\n", "0x40 READ 0x30\n",  // DRAMsim3's
+                           "0 R\n2: write 0x40\n", "2: write 0x40\n0x40 READ 30\n"}) {
+    INFO(text);
+    CHECK(RequestFile(text).refusal() != "accepted");
+  }
+  CHECK(RequestFile("# nanoseconds R|W address\n").refusal() ==
+        ": line 1: got '# nanoseconds R|W address', expected '# address R|W nanoseconds bytes'");
+  CHECK(RequestFile("2: write 0x40\n3: erase 0x40\n").refusal() ==
+        ": line 2: got '3: erase 0x40', expected CYCLE: [(BYTES)] read|write 0xADDRESS [0xDATA] as "
+        "in the lines before, of a DRAMSys trace");
+  CHECK(RequestFile("READ 0x40 30\n").refusal() ==
+        ": line 1: got 'READ 0x40 30', expected ADDRESS R|W [NANOSECONDS [BYTES]], or DRAMSys's "
+        "CYCLE: [(BYTES)] read|write 0xADDRESS [0xDATA], or DRAMsim3's 0xADDRESS READ|WRITE CYCLE");
+  CHECK_THROWS_AS(read_request_trace("relative.rstl", 1.25), InputError);
 }
 
 }  // namespace

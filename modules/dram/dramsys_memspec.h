@@ -1,0 +1,19 @@
+// Memspecs of DRAMSys (tukl-msd/DRAMSys, configs/memspec), by the names of tukl-msd/DRAMUtils.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace sgs {
+
+bool is_dramsys_memspec(const nlohmann::ordered_json& json);
+
+// The same device as a memspec of ours, as JSON. `notes` gets a line for what the file does not
+// state and what stands in for it, and for what is not taken over. `origin` stands for the file.
+// InputError: a type of memory that has no such form, or a number that is missing or none.
+nlohmann::ordered_json converted_from_dramsys(const nlohmann::ordered_json& json,
+                                              const std::string& origin,
+                                              std::vector<std::string>& notes);
+
+}  // namespace sgs
