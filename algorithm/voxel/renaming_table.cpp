@@ -13,7 +13,7 @@ namespace {
 
 constexpr unsigned kVidBits = 40, kVoxelBits = 24;  // of an entry of the hashed form
 constexpr unsigned kDenseBits = 24;  // of the numbers that the dense form has room for
-constexpr RenamingRecord kFree = ~RenamingRecord{0};
+constexpr std::uint64_t kFree = ~std::uint64_t{0};
 constexpr std::uint32_t kNoVoxel = ~0U;
 
 unsigned bits_for(int cells) {
@@ -46,10 +46,10 @@ void for_each_voxel(const VoxelGrid& grid, const Visit& visit) {
   if (!grid.nodes.empty()) for_each_voxel(grid, 0, grid.frame.levels, glm::ivec3(0), visit);
 }
 
-std::uint32_t hashed_records(std::size_t voxels) {
-  std::uint32_t records = 2;
-  while (3 * std::uint64_t{records} < 4 * voxels) records *= 2;
-  return records;
+std::uint32_t hashed_lines(std::size_t voxels) {
+  std::uint32_t lines = 1;
+  while (kRenamedInLine * lines < 2 * voxels) lines *= 2;
+  return lines;
 }
 
 void check_size(const CellNumbers& numbers, std::size_t voxels, RenamingForm form) {
@@ -93,25 +93,29 @@ CellNumbers::CellNumbers(const glm::ivec3& cells)
     : y_(bits_for(cells.x)), z_(y_ + bits_for(cells.y)), bits_(z_ + bits_for(cells.z)) {}
 
 std::uint32_t RenamingLookUp::first(std::uint64_t vid) const {
-  if (form == RenamingForm::kDense) return static_cast<std::uint32_t>(vid / 2);
+  if (form == RenamingForm::kDense) return static_cast<std::uint32_t>(vid / (2 * kRenamedInLine));
   // Neighbouring cells have neighbouring numbers: three shifts and exclusive ors spread them
   // (Marsaglia, "Xorshift RNGs", 2003).
   vid ^= vid << 13U;
   vid ^= vid >> 7U;
   vid ^= vid << 17U;
-  return static_cast<std::uint32_t>(vid >> 32U ^ vid) & (records - 1);
+  return static_cast<std::uint32_t>(vid >> 32U ^ vid) & (lines - 1);
 }
 
-Renamed RenamingLookUp::read(std::uint64_t vid, RenamingRecord record) const {
+Renamed RenamingLookUp::read(std::uint64_t vid, const RenamingLine& line) const {
   if (form == RenamingForm::kDense) {
-    const auto voxel = static_cast<std::uint32_t>(record >> (32 * (vid % 2)));
+    const std::uint64_t both = line[vid / 2 % kRenamedInLine];
+    const auto voxel = static_cast<std::uint32_t>(both >> (32 * (vid % 2)));
     if (voxel == kNoVoxel) return {Renamed::What::kEmpty};
     return {Renamed::What::kVoxel, voxel};
   }
-  if (record == kFree) return {Renamed::What::kEmpty};
-  if (record >> kVoxelBits != vid) return {Renamed::What::kLookOn};
-  return {Renamed::What::kVoxel,
-          static_cast<std::uint32_t>(record & ((RenamingRecord{1} << kVoxelBits) - 1))};
+  for (const std::uint64_t entry : line) {
+    if (entry == kFree) return {Renamed::What::kEmpty};
+    if (entry >> kVoxelBits != vid) continue;
+    return {Renamed::What::kVoxel,
+            static_cast<std::uint32_t>(entry & ((std::uint64_t{1} << kVoxelBits) - 1))};
+  }
+  return {Renamed::What::kLookOn};
 }
 
 RenamingTable renaming_table(const VoxelGrid& grid, RenamingForm form) {
@@ -119,21 +123,26 @@ RenamingTable renaming_table(const VoxelGrid& grid, RenamingForm form) {
   table.numbers = CellNumbers(occupied_cells(grid));
   check_size(table.numbers, grid.voxels.size(), form);
   const bool dense = form == RenamingForm::kDense;
-  table.look_up = {
-      form, dense ? static_cast<std::uint32_t>(((std::uint64_t{1} << table.numbers.bits()) + 1) / 2)
-                  : hashed_records(grid.voxels.size())};
-  table.records.assign(table.look_up.records, kFree);
+  const std::uint64_t cells = std::uint64_t{1} << table.numbers.bits(),
+                      in_line = 2 * kRenamedInLine;
+  table.look_up = {form, dense ? static_cast<std::uint32_t>((cells + in_line - 1) / in_line)
+                               : hashed_lines(grid.voxels.size())};
+  RenamingLine free;
+  free.fill(kFree);
+  table.lines.assign(table.look_up.lines, free);
   for_each_voxel(grid, [&](const glm::ivec3& cell, std::uint32_t voxel) {
     const std::uint64_t vid = table.numbers.of(cell);
     std::uint32_t at = table.look_up.first(vid);
     if (dense) {
+      std::uint64_t& both = table.lines[at][vid / 2 % kRenamedInLine];
       const unsigned shift = 32 * (vid % 2);
-      table.records[at] &= ~(RenamingRecord{kNoVoxel} << shift);
-      table.records[at] |= RenamingRecord{voxel} << shift;
+      both &= ~(std::uint64_t{kNoVoxel} << shift);
+      both |= std::uint64_t{voxel} << shift;
       return;
     }
-    while (table.records[at] != kFree) at = table.look_up.behind(at);
-    table.records[at] = vid << kVoxelBits | voxel;
+    while (table.lines[at].back() != kFree) at = table.look_up.behind(at);
+    RenamingLine& line = table.lines[at];
+    *std::find(line.begin(), line.end(), kFree) = vid << kVoxelBits | voxel;
   });
   return table;
 }

@@ -2,6 +2,7 @@
 // its place among the voxels that hold Gaussians. It takes away the empty ones.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -11,12 +12,14 @@
 
 namespace sgs {
 
-// Dense: an entry for each cell of the box, empty or not. Hashed: linear probing, at most three
-// quarters of the entries taken.
+// Dense: an entry for each cell of the box, empty or not. Hashed: a line of entries for each value
+// of the hash, then the line behind it; at most half of the entries are taken.
 enum class RenamingForm : std::uint8_t { kHashed, kDense };
 
-// A record in memory: an entry of the hashed form (VID, voxel), or two of the dense one (voxels).
-using RenamingRecord = std::uint64_t;
+// A line in memory, read and compared at once: four entries of the hashed form (VID and voxel), or
+// eight of the dense one (voxels).
+constexpr std::size_t kRenamedInLine = 4;
+using RenamingLine = std::array<std::uint64_t, kRenamedInLine>;
 
 // Numbers of the cells of a box: the bits of their coordinates, side by side.
 class CellNumbers {
@@ -33,26 +36,26 @@ class CellNumbers {
   unsigned y_ = 0, z_ = 0, bits_ = 0;
 };
 
-// What a record says of a number.
+// What a line says of a number.
 struct Renamed {
   enum class What : std::uint8_t { kEmpty, kVoxel, kLookOn } what;
   std::uint32_t voxel = 0;
 };
 
-// How records are found and read.
+// How lines are found and read.
 struct RenamingLookUp {
   RenamingForm form = RenamingForm::kHashed;
-  std::uint32_t records = 0;  // hashed: a power of two
+  std::uint32_t lines = 0;  // hashed: a power of two
 
   std::uint32_t first(std::uint64_t vid) const;
-  std::uint32_t behind(std::uint32_t record) const { return (record + 1) & (records - 1); }
-  Renamed read(std::uint64_t vid, RenamingRecord record) const;
+  std::uint32_t behind(std::uint32_t line) const { return (line + 1) & (lines - 1); }
+  Renamed read(std::uint64_t vid, const RenamingLine& line) const;
 };
 
 struct RenamingTable {
   CellNumbers numbers;
   RenamingLookUp look_up;
-  std::vector<RenamingRecord> records;
+  std::vector<RenamingLine> lines;
 };
 
 // Throws InputError where the box has too many cells for the form, or the grid too many voxels.

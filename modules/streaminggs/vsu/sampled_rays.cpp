@@ -18,10 +18,10 @@ void SampledRays::place_tables(const PaperVsuConfig& config, const VoxelGrid& gr
   place.cells = occupied_cells(grid);
   place.numbers = table.numbers;
   place.look_up = table.look_up;
-  place.records = job.layout.regions.add_records("renaming_table", sizeof(RenamingRecord),
-                                                 table.look_up.records);
+  place.records =
+      job.layout.regions.add_records("renaming_table", sizeof(RenamingLine), table.look_up.lines);
   std::vector<std::byte> bytes(place.records.bytes());
-  std::memcpy(bytes.data(), table.records.data(), bytes.size());
+  std::memcpy(bytes.data(), table.lines.data(), bytes.size());
   place.contents = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
   job.adjacency = job.layout.regions.add("adjacency", AdjacencyCache::area_bytes(config));
 }
@@ -133,7 +133,7 @@ std::uint64_t SampledRays::look_up(const Cell& cell, std::uint64_t cycle, Pass& 
   Renamed renamed{Renamed::What::kLookOn};
   for (std::uint32_t at = table.first(cell.number); renamed.what == Renamed::What::kLookOn;
        at = table.behind(at)) {
-    renamed = table.read(cell.number, record(at, cycle));
+    renamed = table.read(cell.number, line(at, cycle));
     ++cycle;
   }
   look_up_free_ = cycle;
@@ -146,15 +146,15 @@ std::uint64_t SampledRays::look_up(const Cell& cell, std::uint64_t cycle, Pass& 
   return began;
 }
 
-// The record, and the cycle in which it is there.
-RenamingRecord SampledRays::record(std::uint32_t index, std::uint64_t& cycle) {
-  if (const auto* const line = renaming_.find(index)) return renaming_.record_in(*line, index);
+// The line, and the cycle in which it is there.
+RenamingLine SampledRays::line(std::uint32_t index, std::uint64_t& cycle) {
+  if (const auto* const there = renaming_.find(index)) return renaming_.record_in(*there, index);
   advance_to(cycle);
-  TableCache<RenamingRecord>::Line line;
-  await(port_, activity_, renaming_.fetch(renaming_.line_of(index), line, port_, activity_));
-  renaming_.fill(line);
+  TableCache<RenamingLine>::Line come;
+  await(port_, activity_, renaming_.fetch(renaming_.line_of(index), come, port_, activity_));
+  renaming_.fill(come);
   cycle = now();
-  return renaming_.record_in(line, index);
+  return renaming_.record_in(come, index);
 }
 
 // Takes the voxel into the tables from this cycle on. The look-ups go on in the cycle of the last

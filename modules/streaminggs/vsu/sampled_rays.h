@@ -74,7 +74,7 @@ class SampledRays {
   bool take_beat(CellSamples<>& samples, const VisitWindow& window, glm::ivec3& before,
                  std::vector<Cell>& cells);
   std::uint64_t look_up(const Cell& cell, std::uint64_t cycle, Pass& pass);
-  RenamingRecord record(std::uint32_t index, std::uint64_t& cycle);
+  RenamingLine line(std::uint32_t index, std::uint64_t& cycle);
   void enter(std::uint32_t voxel, std::uint64_t cycle, Pass& pass);
   std::uint64_t use_lines(std::uint32_t source, std::uint64_t cycle, const OrderingTable& table);
   std::uint32_t lines_of(const OrderingTable& table, std::uint32_t source) const;
@@ -89,7 +89,7 @@ class SampledRays {
   const ListsOut lists_;
   const Datapath begins_, samples_;
   const SampleSpace space_;
-  TableCache<RenamingRecord> renaming_;
+  TableCache<RenamingLine> renaming_;
   AdjacencyCache adjacency_;
   // Cycles from which each stage is free again.
   std::uint64_t pass_from_ = 0, begins_free_ = 0, sampler_free_ = 0, look_up_free_ = 0,

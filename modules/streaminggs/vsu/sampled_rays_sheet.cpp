@@ -17,13 +17,14 @@ constexpr std::uint32_t kBegunRayBytes = 20, kCellBytes = 8;
 constexpr std::uint32_t kOfSample = 2, kOfCell = 6;
 // A voxel is compared with the window's ends, and with the nearest and the farthest in it.
 constexpr std::uint32_t kOfMet = 2, kOfEntered = 2;
-constexpr std::uint32_t kOfNumber = 2;  // an entry of the renaming table with the number
+// Entries of a line of the renaming table with the number, two words each.
+constexpr std::uint32_t kOfNumber = 2 * kRenamedInLine;
 
 }  // namespace
 
 SramUses SampledRays::sram_uses(const PaperVsuConfig& config, const BuiltFor& built_for) {
-  SramUses uses = TableCache<RenamingRecord>::sram_uses("renaming table", "renaming table tags",
-                                                        kSharedSram, config.renaming_bytes);
+  SramUses uses = TableCache<RenamingLine>::sram_uses("renaming table", "renaming table tags",
+                                                      kSharedSram, config.renaming_bytes);
   const std::uint32_t samples = config.samples_per_cycle;
   uses.push_back(sram_use("begun rays", kSharedSram,
                           {{config.rays_in_flight, "rays"}, {kBegunRayBytes, "B"}},

@@ -113,7 +113,7 @@ constexpr std::uint32_t kNoVoxelThere = ~0U;
 std::uint32_t voxel_at(const RenamingTable& table, const glm::ivec3& cell) {
   const std::uint64_t vid = table.numbers.of(cell);
   for (std::uint32_t at = table.look_up.first(vid);; at = table.look_up.behind(at)) {
-    const Renamed renamed = table.look_up.read(vid, table.records[at]);
+    const Renamed renamed = table.look_up.read(vid, table.lines[at]);
     if (renamed.what == Renamed::What::kVoxel) return renamed.voxel;
     if (renamed.what == Renamed::What::kEmpty) return kNoVoxelThere;
   }
@@ -374,7 +374,7 @@ TEST_CASE("renaming table: every voxel and no empty cell, in either form") {
 TEST_CASE("renaming table: a box with too many cells is refused by its form") {
   const ActivatedCloud cloud = cloud_of({{0.5F, 0.5F, 0.5F}, {300.5F, 300.5F, 300.5F}});
   const VoxelGrid grid = arrange_by_voxels(cloud, 1.0F).table;  // 9 bits an axis
-  CHECK(renaming_table(grid, RenamingForm::kHashed).records.size() == 4);
+  CHECK(renaming_table(grid, RenamingForm::kHashed).lines.size() == 1);
   CHECK_THROWS_WITH(renaming_table(grid, RenamingForm::kDense),
                     Catch::Contains("27 bits, expected at most 24, or hashed"));
   const VoxelGrid fine = arrange_by_voxels(cloud, 0.001F).table;

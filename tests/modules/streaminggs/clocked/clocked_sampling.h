@@ -327,8 +327,7 @@ class ClockedSampling {
       record_ = table_.look_up.first(looked_up_.number);
       looks_up_ = true;
     }
-    const std::uint64_t line =
-        (base_ + record_ * sizeof(RenamingRecord)) / ClockedCache::kLineBytes;
+    const std::uint64_t line = (base_ + record_ * sizeof(RenamingLine)) / ClockedCache::kLineBytes;
     if (misses_ ? !table.port().answered(line_) : !cache_.hits(line)) {
       if (!misses_) line_ = {line * ClockedCache::kLineBytes, 1};
       misses_ = true;
@@ -337,7 +336,7 @@ class ClockedSampling {
     }
     if (misses_) cache_.fill(line);
     misses_ = false;
-    const Renamed renamed = table_.look_up.read(looked_up_.number, table_.records[record_]);
+    const Renamed renamed = table_.look_up.read(looked_up_.number, table_.lines[record_]);
     if (renamed.what == Renamed::What::kLookOn) {
       record_ = table_.look_up.behind(record_);
       return;
