@@ -1,13 +1,27 @@
 // The registers that the host writes into an accelerator before a frame.
 #pragma once
 
+#include <cstddef>
 #include <glm/vec3.hpp>
+#include <memory>
+#include <vector>
 
 #include "algorithm/memory/frame_buffer.h"
 #include "algorithm/memory/scene_layout.h"
 #include "algorithm/splat/view.h"
+#include "algorithm/voxel/renaming_table.h"
 
 namespace sgs {
+
+// Where a renaming table lies, for a machine that has one; and what the host loads there with the
+// scene.
+struct RenamingPlace {
+  glm::ivec3 cells{0};  // of the box that is numbered
+  CellNumbers numbers;
+  RenamingLookUp look_up;
+  RecordArray records;
+  std::shared_ptr<const std::vector<std::byte>> contents;  // null: no such table
+};
 
 struct FrameJob {
   View<float> view{};
@@ -15,6 +29,8 @@ struct FrameJob {
   SceneLayout layout;  // the scene's regions, then those that the machine uses
   FrameFormat frame_format = FrameFormat::kRgb8;
   RegionSpan spill;         // for data that the machine puts aside during the frame; may be empty
+  RenamingPlace renaming;   // empty where the machine has no such table
+  RegionSpan adjacency;     // for edges that its adjacency table has no room for; may be empty
   RegionSpan frame_buffer;  // rows from the top, pixels without padding
 
   std::uint64_t pixel_address(int x, int y) const {

@@ -16,6 +16,14 @@ inline void visit(ConfigVisitor& v, StorageConfig& c) {
     std::visit([&](auto value) { v(size.key, c.*value, in_range(0, size.most), size.meaning); },
                size.value);
   }
+  if (scheme_of(c.order).has_voxel_rule()) {
+    v("voxel_rule", c.voxel_rule,
+      names<VoxelRule>({{"extent", VoxelRule::kExtent},
+                        {"real", VoxelRule::kReal},
+                        {"synthetic", VoxelRule::kSynthetic}}),
+      "voxel_size 0: 0.4 for a scene below 10 units across, else 2; or 2, or 0.4, where the scene "
+      "has the paper's unit of length");
+  }
   if (scheme_of(c.order).has_sequence()) {
     v("sequence", c.sequence,
       names<FileSequence>({{"file", FileSequence::kFile}, {"spatial", FileSequence::kSpatial}}),

@@ -13,10 +13,15 @@ namespace sgs {
 // scene's file, or neighbours in space side by side.
 enum class FileSequence : std::uint8_t { kFile, kSpatial };
 
+// What a voxel size that is left open is taken from: the scene's extent, or the paper's two sizes
+// for scenes whose unit of length is the paper's.
+enum class VoxelRule : std::uint8_t { kExtent, kReal, kSynthetic };
+
 struct StorageConfig {
   StorageOrder order = StorageOrder::kChunks;
   // Keys of one order, which its scheme says (../storage/storage_scheme.h).
   double voxel_size = 0;
+  VoxelRule voxel_rule = VoxelRule::kExtent;
   std::uint32_t chunk_gaussians = 8;
   FileSequence sequence = FileSequence::kSpatial;
   // Keys of every order.

@@ -20,6 +20,7 @@ struct RayPattern {
   std::uint32_t step_px = 1;
   float sample_step_voxels = 0;    // 0: every cell of the ray; else the distance of samples on it
   std::uint32_t side_by_side = 1;  // rays that are followed at a time
+  bool by_coordinates = false;     // the samples' own cells (cell_samples.h), not down the tree
 };
 
 struct GroupVisits {

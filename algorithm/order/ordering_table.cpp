@@ -15,8 +15,10 @@ std::uint64_t most_held(std::size_t voxel_count, std::uint64_t capacity_bytes) {
 
 }  // namespace
 
-OrderingTable::OrderingTable(std::size_t voxel_count, std::uint64_t capacity_bytes)
+OrderingTable::OrderingTable(std::size_t voxel_count, std::uint64_t capacity_bytes,
+                             std::uint32_t line_destinations)
     : capacity_bytes_(capacity_bytes),
+      line_destinations_(line_destinations),
       names_(most_held(voxel_count, capacity_bytes)),
       ready_(most_held(voxel_count, capacity_bytes)) {}
 
@@ -28,6 +30,7 @@ void OrderingTable::clear() {
   voxels_.clear();
   edges_.clear();
   edges_offered_ = 0;
+  full_lines_ = false;
 }
 
 std::uint32_t OrderingTable::rename(std::uint32_t voxel, bool first) {
@@ -40,7 +43,7 @@ std::uint32_t OrderingTable::rename(std::uint32_t voxel, bool first) {
   accesses_.names_read += slots;
   if (names_.taken(slot)) return names_.number(slot);
   const std::uint32_t number = voxel_count();
-  voxels_.push_back({voxel, 0, kNone});
+  voxels_.push_back({voxel, 0, kNone, 0});
   if (!fits()) return kNone;
   names_.take(slot, number);
   ++accesses_.names_written;
@@ -52,16 +55,22 @@ std::uint32_t OrderingTable::rename(std::uint32_t voxel, bool first) {
 // The head of the list stands in the voxel's record; who is new goes in front. A voxel that comes
 // with its first edge was never ready, and its in-degree is written with the rest of its record.
 void OrderingTable::add_edge(std::uint32_t from, std::uint32_t to, bool is_new) {
-  ++accesses_.reads;
-  ++accesses_.heads_read;
+  const bool linked = line_destinations_ == 0;  // else a line holds them, and no record its head
+  accesses_.reads += linked ? 1 : 0;
+  accesses_.heads_read += linked ? 1 : 0;
   for (std::uint32_t at = voxels_[from].first_edge; at != kNone; at = edges_[at].next) {
-    ++accesses_.reads;
+    accesses_.reads += linked ? 1 : 0;
     if (edges_[at].successor == to) return;
   }
   edges_.push_back({to, voxels_[from].first_edge});
   voxels_[from].first_edge = edge_count() - 1;
-  write(word_of_edge(edge_count() - 1));
-  write(from);             // the list's head
+  added_edge_ = true;
+  ++voxels_[from].out_degree;
+  full_lines_ = !linked && voxels_[from].out_degree > kMostAdjacencyLines * line_destinations_;
+  if (linked) {
+    write(word_of_edge(edge_count() - 1));
+    write(from);  // the list's head
+  }
   if (!is_new) write(to);  // the in-degree
   if (voxels_[to].in_degree++ == 0 && !is_new) count_ready(ready_.clear(to));
 }
@@ -71,12 +80,20 @@ bool OrderingTable::add(Chain& chain, std::uint32_t voxel) {
   const std::uint32_t voxels = voxel_count();
   written_.clear();
   ready_written_ = 0;
+  added_edge_ = false;
   const bool first = chain.before == kNone;
   if (!first) ++edges_offered_;
   const std::uint32_t number = rename(voxel, first);
   if (number != kNone && !first) add_edge(chain.before, number, number == voxels);
   chain.before = number;
   return number != kNone && fits();
+}
+
+std::vector<std::uint32_t> OrderingTable::destinations(std::uint32_t number) const {
+  std::vector<std::uint32_t> out;
+  for_each_edge(number, [&](std::uint32_t, std::uint32_t to) { out.push_back(to); });
+  std::reverse(out.begin(), out.end());  // who is new stands in front
+  return out;
 }
 
 std::vector<std::uint32_t> OrderingTable::order() {
@@ -91,7 +108,7 @@ std::vector<std::uint32_t> OrderingTable::order() {
     voxels_[number].in_degree = kNone;  // taken
     for (std::uint32_t at = voxels_[number].first_edge; at != kNone; at = edges_[at].next) {
       Voxel& next = voxels_[edges_[at].successor];
-      accesses_.reads += 2;
+      accesses_.reads += line_destinations_ > 0 ? 1 : 2;
       ++accesses_.writes;
       if (--next.in_degree > 0) continue;
       count_ready(ready_.set(edges_[at].successor));

@@ -137,6 +137,10 @@ class ReadyVoxels {
 constexpr std::uint32_t kOrderingBytesPerVoxel = 8;
 constexpr std::uint32_t kOrderingBytesPerEdge = 4;
 
+// Lines of the adjacency table that one voxel may take, where edges stand in such lines: a bound on
+// what is kept of them.
+constexpr std::uint32_t kMostAdjacencyLines = 8;
+
 // Accesses to the table so far, each to a voxel's record or to an edge.
 struct OrderingAccesses {
   std::uint64_t met = 0;                            // voxels
@@ -153,8 +157,11 @@ class OrderingTable {
   static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
 
   // voxel_count: how many voxels exist; ids below it may appear in chains. capacity_bytes:
-  // memory that is there for one group, at least that of a voxel.
-  explicit OrderingTable(std::size_t voxel_count, std::uint64_t capacity_bytes = kUnlimited);
+  // memory that is there for one group, at least that of a voxel. line_destinations: 0 where edges
+  // are linked words of the table; else they stand beside it, in lines of an adjacency table, each
+  // of one source and of so many destinations.
+  explicit OrderingTable(std::size_t voxel_count, std::uint64_t capacity_bytes = kUnlimited,
+                         std::uint32_t line_destinations = 0);
 
   // Voxels for which a table of so many bytes has room.
   static std::uint64_t most_voxels(std::uint64_t capacity_bytes) {
@@ -166,6 +173,11 @@ class OrderingTable {
 
   // The place of a ray: the number of the voxel that it met last, if any.
   class Chain {
+   public:
+    bool begun() const { return before != kNone; }
+    std::uint32_t number() const { return before; }  // only where it has begun
+
+   private:
     friend class OrderingTable;
     std::uint32_t before = kNone;
   };
@@ -186,8 +198,8 @@ class OrderingTable {
   }                                                               // distinct
   std::uint64_t edges_offered() const { return edges_offered_; }  // by all rays
   std::uint64_t bytes() const {
-    return std::uint64_t{voxel_count()} * kOrderingBytesPerVoxel +
-           std::uint64_t{edge_count()} * kOrderingBytesPerEdge;
+    const std::uint64_t edges = line_destinations_ > 0 ? 0 : edge_count();
+    return std::uint64_t{voxel_count()} * kOrderingBytesPerVoxel + edges * kOrderingBytesPerEdge;
   }
   const OrderingAccesses& accesses() const { return accesses_; }
   // The words written for the voxel added last. Words of the table have 8 B and hold a voxel's
@@ -202,12 +214,18 @@ class OrderingTable {
       visit(word_of_edge(at), edges_[at].successor);
     }
   }
+  // A voxel's edges in lines, by its number: how many, and the numbers of the voxels that they lead
+  // to, in the order in which these were added.
+  std::uint32_t out_degree(std::uint32_t number) const { return voxels_[number].out_degree; }
+  std::vector<std::uint32_t> destinations(std::uint32_t number) const;
+  // Whether the voxel added last came with an edge that was not there.
+  bool added_edge() const { return added_edge_; }
   // Levels of words that finding the first of the ready voxels passes.
   std::uint32_t ready_levels() const { return ready_.levels(); }
 
  private:
   struct Voxel {
-    std::uint32_t id, in_degree, first_edge;
+    std::uint32_t id, in_degree, first_edge, out_degree;
   };
   struct Edge {
     std::uint32_t successor, next;
@@ -215,7 +233,7 @@ class OrderingTable {
 
   std::uint32_t rename(std::uint32_t voxel, bool first);  // first: of its ray
   void add_edge(std::uint32_t from, std::uint32_t to, bool is_new);
-  bool fits() const { return bytes() <= capacity_bytes_; }
+  bool fits() const { return bytes() <= capacity_bytes_ && !full_lines_; }
 
   static std::uint32_t word_of_edge(std::uint32_t edge) { return edge / 2; }
   void write(std::uint32_t word) {
@@ -229,6 +247,9 @@ class OrderingTable {
   }
 
   const std::uint64_t capacity_bytes_;
+  const std::uint32_t line_destinations_;
+  bool full_lines_ = false;             // a voxel has more edges than its lines
+  bool added_edge_ = false;             // of the voxel added last
   std::vector<std::uint32_t> written_;  // words, of the voxel added last
   std::uint64_t ready_written_ = 0;     // words, likewise
   Renaming names_;

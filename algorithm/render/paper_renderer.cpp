@@ -14,6 +14,7 @@
 #include "algorithm/render/paper_losses.h"
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/make_splat.h"
+#include "algorithm/voxel/cell_samples.h"
 #include "algorithm/voxel/voxel_cuts.h"
 
 namespace sgs {
@@ -118,6 +119,12 @@ GroupVisits paper_visits(const View<float>& view, const PixelRect& group, const 
                          const RayPattern& rays, OrderingTable& table) {
   if (grid.nodes.empty()) return {};
   const GridTable nodes{grid};
+  if (rays.by_coordinates) {
+    const SampleSpace space =
+        sample_space(view.position, grid.frame, occupied_cells(grid), rays.sample_step_voxels);
+    RaysInRounds rounds(view, rays, CellSamplePath(grid.frame, space), nodes);
+    return group_visits(group, rounds, table);
+  }
   if (rays.sample_step_voxels > 0) {
     RaysInRounds rounds(view, rays, SamplePath(grid.frame, rays.sample_step_voxels), nodes);
     return group_visits(group, rounds, table);
@@ -131,7 +138,8 @@ std::vector<std::vector<std::uint32_t>> visited_voxels(const View<float>& view,
                                                        const PaperOrderConfig& config) {
   const std::vector<PixelRect> groups = pixel_groups(view.width, view.height, config.group);
   std::vector<std::vector<std::uint32_t>> out(groups.size());
-  tbb::enumerable_thread_specific<OrderingTable> tables(grid.voxels.size(), config.table_bytes);
+  tbb::enumerable_thread_specific<OrderingTable> tables(grid.voxels.size(), config.table_bytes,
+                                                        config.line_destinations);
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t group) {
     out[group] = paper_visits(view, groups[group], grid, config.rays, tables.local()).voxels;
   });
@@ -153,7 +161,8 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
   std::vector<StreamingStats> stats(groups.size());
   out.group_voxels.resize(groups.size());
   Flags contributing(cloud.size()), reached(grid.voxels.size());
-  tbb::enumerable_thread_specific<OrderingTable> tables(grid.voxels.size(), config.table_bytes);
+  tbb::enumerable_thread_specific<OrderingTable> tables(grid.voxels.size(), config.table_bytes,
+                                                        config.line_destinations);
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t index) {
     const PixelRect& group = groups[index];
     StreamingStats& s = stats[index];

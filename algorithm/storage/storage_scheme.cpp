@@ -17,7 +17,13 @@ const StorageScheme& scheme_of(StorageOrder order) {
   return *schemes.at(static_cast<std::size_t>(order));
 }
 
-Choice<double> choose_voxel_size(const ActivatedCloud& cloud) {
+Choice<double> choose_voxel_size(const ActivatedCloud& cloud, VoxelRule rule) {
+  if (rule != VoxelRule::kExtent) {
+    const bool real = rule == VoxelRule::kReal;
+    return {real ? kRealVoxelSize : kSmallVoxelSize,
+            fmt::format("the paper's for {} scenes, as storage.voxel_rule says",
+                        real ? "real" : "synthetic")};
+  }
   const float extent = inner_extent(cloud);
   const bool small = !(extent > kSmallSceneExtent);
   return {paper_voxel_size(extent),

@@ -33,8 +33,8 @@ struct StorageChoice {
   std::string why;
 };
 
-// The voxel size in world units, by the inner extent of the scene (voxel_grid.h).
-Choice<double> choose_voxel_size(const ActivatedCloud& cloud);
+// The voxel size in world units: by the inner extent of the scene (voxel_grid.h), or as it is said.
+Choice<double> choose_voxel_size(const ActivatedCloud& cloud, VoxelRule rule = VoxelRule::kExtent);
 
 // The most Gaussians in a chunk. run_bytes: what lies together in one row of one memory channel. A
 // chunk's first halves fill it: smaller chunks cost more tree records than they save, larger ones
@@ -83,7 +83,8 @@ class StorageScheme {
 
   // Configuration.
   virtual std::vector<StorageSize> sizes() const { return {}; }
-  virtual bool has_sequence() const { return false; }  // StorageConfig::sequence
+  virtual bool has_sequence() const { return false; }    // StorageConfig::sequence
+  virtual bool has_voxel_rule() const { return false; }  // StorageConfig::voxel_rule
   // Fill in the sizes that are open and follow from the memory (run_bytes: what lies together in
   // one row of one channel), or from the scene; return what they chose.
   virtual std::vector<StorageChoice> choose(StorageConfig&, std::uint32_t /*run_bytes*/) const {

@@ -153,15 +153,15 @@ class VoxelScheme : public StorageScheme {
   const char* name() const override { return "voxels"; }
 
   std::vector<StorageSize> sizes() const override {
-    return {{"voxel_size", &StorageConfig::voxel_size, 1e9,
-             "world units; 0: 0.4 for a scene below 10 units across, else 2"}};
+    return {{"voxel_size", &StorageConfig::voxel_size, 1e9, "world units; 0: as voxel_rule says"}};
   }
+  bool has_voxel_rule() const override { return true; }
 
   using StorageScheme::choose;
   std::vector<StorageChoice> choose(StorageConfig& config,
                                     const ActivatedCloud& cloud) const override {
     if (config.voxel_size != 0) return {};
-    const Choice<double> size = choose_voxel_size(cloud);
+    const Choice<double> size = choose_voxel_size(cloud, config.voxel_rule);
     config.voxel_size = size.value;
     return {{"voxel_size", size.value, size.why}};
   }

@@ -30,18 +30,28 @@ struct RayOf {
 };
 using Ray = RayOf<float>;
 
-// Ray through the centre of pixel (x, y), whole numbers; world frame.
+// Direction through the centre of pixel (x, y), whole numbers; world frame.
 template <class T>
-RayOf<T> pixel_ray_of(const View<T>& view, T x, T y) {
+glm::vec<3, T> pixel_direction(const View<T>& view, T x, T y) {
   const T right = (x - view.centre_x) / view.focal_x;
   const T down = (y - view.centre_y) / view.focal_y;
+  glm::vec<3, T> direction;
+  for (int axis = 0; axis < 3; ++axis) {
+    direction[axis] = right * view.cam_from_world[0][axis] + down * view.cam_from_world[1][axis] +
+                      view.cam_from_world[2][axis];
+  }
+  return direction;
+}
+
+// Ray in that direction.
+template <class T>
+RayOf<T> pixel_ray_of(const View<T>& view, T x, T y) {
   RayOf<T> ray{};
   ray.origin = view.position;
+  ray.direction = pixel_direction(view, x, y);
   for (int axis = 0; axis < 3; ++axis) {
-    const T d = right * view.cam_from_world[0][axis] + down * view.cam_from_world[1][axis] +
-                view.cam_from_world[2][axis];
+    const T d = ray.direction[axis];
     const float sign = value_of(d);
-    ray.direction[axis] = d;
     ray.step[axis] = sign > 0 ? 1 : (sign < 0 ? -1 : 0);
     ray.inverse[axis] = sign == 0 ? T(0.0F) : T(1.0F) / d;
   }

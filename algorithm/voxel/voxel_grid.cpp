@@ -173,8 +173,7 @@ float inner_extent(const ActivatedCloud& cloud) {
 }
 
 double paper_voxel_size(float inner_extent) {
-  constexpr double kSmall = 0.4, kReal = 2;
-  return inner_extent > kSmallSceneExtent ? kReal : kSmall;
+  return inner_extent > kSmallSceneExtent ? kRealVoxelSize : kSmallVoxelSize;
 }
 
 }  // namespace sgs

@@ -77,6 +77,7 @@ float inner_extent(const ActivatedCloud& cloud);
 // The paper's voxel sizes, in world units: 0.4 for small synthetic scenes, 2 for real ones. A scene
 // counts as small when its inner extent is at most kSmallSceneExtent.
 constexpr float kSmallSceneExtent = 10;
+constexpr double kSmallVoxelSize = 0.4, kRealVoxelSize = 2;
 double paper_voxel_size(float inner_extent);
 
 // Which children of a node a ray can still meet, and how large the block is in which there are

@@ -23,6 +23,17 @@ void check(const PaperConfig& c) {
         "blocks of {} each",
         c.sorting.buffer_entries, c.sorting.least_of_runs(), c.sorting.spill_block_entries));
   }
+  if (c.vsu.samples() && !(c.vsu.sample_step_voxels > 0)) {
+    throw InputError(fmt::format(
+        "vsu.sample_step_voxels: got {} with vsu.samples_per_cycle {}, expected more than 0",
+        c.vsu.sample_step_voxels, c.vsu.samples_per_cycle));
+  }
+  constexpr std::uint32_t kMostNumbered = 8 * 65536;  // bytes: voxels have numbers of 16 bits
+  if (c.vsu.samples() && c.vsu.table_bytes > kMostNumbered) {
+    throw InputError(
+        fmt::format("vsu.table_bytes: got {} with vsu.samples_per_cycle {}, expected at most {}",
+                    c.vsu.table_bytes, c.vsu.samples_per_cycle, kMostNumbered));
+  }
   if (c.vsu.table_bytes < c.vsu.least_table_bytes()) {
     throw InputError(fmt::format(
         "vsu.table_bytes: got {}, expected at least {}: a word of {} B in "

@@ -13,6 +13,7 @@
 #include "modules/streaminggs/pipeline_depths.h"
 #include "modules/streaminggs/streaming_design.h"
 #include "modules/streaminggs/streaming_sram.h"
+#include "modules/streaminggs/vsu/sampled_rays.h"
 #include "modules/streaminggs/vsu/vsu_datapaths.h"
 
 namespace sgs {
@@ -35,6 +36,19 @@ void PaperDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>&
   storage_ = storage;
   check(config_);
   const OperationLatencies latencies = config_.single_latencies();
+  if (config_.vsu.samples()) {
+    resolve_sampling_depths(latencies, chosen);
+  } else {
+    resolve_step_depths(latencies, chosen);
+  }
+  resolve_rendering_depths(config_, chosen);
+  resolve_sram(
+      config_, storage_, sram_, [&] { return sram_uses(config_, storage_); }, chosen);
+  check_rays(config_);
+}
+
+void PaperDesign::resolve_step_depths(const OperationLatencies& latencies,
+                                      std::vector<AutoChoice>& chosen) {
   // A step reads the ray's context and writes it.
   constexpr std::uint32_t kContext = kReadCycles + kWriteCycles;
   resolve_depth("vsu.step_depth_cycles", config_.vsu.step_depth_cycles,
@@ -48,10 +62,17 @@ void PaperDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>&
   resolve_depth("vsu.ray_depth_cycles", config_.vsu.ray_depth_cycles,
                 pixel_ray_pipeline(config_.vsu, latencies),
                 pixel_ray_flow().longest_path(latencies), latencies, kWriteCycles, chosen);
-  resolve_rendering_depths(config_, chosen);
-  resolve_sram(
-      config_, storage_, sram_, [&] { return sram_uses(config_, storage_); }, chosen);
-  check_rays(config_);
+}
+
+// A ray that has begun is written, and read when it is sampled.
+void PaperDesign::resolve_sampling_depths(const OperationLatencies& latencies,
+                                          std::vector<AutoChoice>& chosen) {
+  resolve_depth("vsu.step_depth_cycles", config_.vsu.step_depth_cycles,
+                ray_sample_pipeline(config_.vsu, latencies),
+                ray_sample_flow().longest_path(latencies), latencies, kReadCycles, chosen);
+  resolve_depth("vsu.ray_depth_cycles", config_.vsu.ray_depth_cycles,
+                sampled_ray_pipeline(config_.vsu, latencies),
+                sampled_ray_flow().longest_path(latencies), latencies, kWriteCycles, chosen);
 }
 
 void PaperDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) {
@@ -62,6 +83,7 @@ FrameJob PaperDesign::job(const StoredScene& scene, const Camera& camera) const 
   FrameJob job = scene_job(config_, scene, camera);
   add_frame_buffer(job);
   add_spill(job, spill_bytes(config_, scene.grid()));  // by the buffers
+  if (config_.vsu.samples()) SampledRays::place_tables(config_.vsu, scene.grid(), job);
   return job;
 }
 
@@ -71,6 +93,7 @@ std::optional<PaperOrderConfig> PaperDesign::paper_order() const {
   order.coarse_filter = config_.hfu.coarse_filter;
   order.rays = config_.vsu.rays();
   order.table_bytes = config_.vsu.table_bytes;
+  order.line_destinations = config_.vsu.line_destinations();
   order.visit_gaussians = config_.vsu.visit_gaussians;
   order.parts = config_.parts();
   order.precision = config_.rendering.precision;
@@ -80,9 +103,10 @@ std::optional<PaperOrderConfig> PaperDesign::paper_order() const {
 
 std::string PaperDesign::golden_key() const {
   const PaperOrderConfig of = *paper_order();
-  return fmt::format("{}x{} {} {}/{}/{} {} {} {} {}", of.group.width, of.group.height,
+  return fmt::format("{}x{} {} {}/{}/{}/{} {}/{} {} {} {}", of.group.width, of.group.height,
                      of.coarse_filter, of.rays.step_px, of.rays.sample_step_voxels,
-                     of.rays.side_by_side, of.table_bytes, of.visit_gaussians, of.parts,
+                     of.rays.side_by_side, of.rays.by_coordinates, of.table_bytes,
+                     of.line_destinations, of.visit_gaussians, of.parts,
                      static_cast<int>(of.precision));
 }
 

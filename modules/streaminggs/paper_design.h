@@ -29,6 +29,9 @@ class PaperDesign : public MachineDesign {
                                  const BuildOptions& options) const override;
 
  private:
+  void resolve_step_depths(const OperationLatencies& latencies, std::vector<AutoChoice>& chosen);
+  void resolve_sampling_depths(const OperationLatencies& latencies,
+                               std::vector<AutoChoice>& chosen);
   void publish_left_out(const StoredScene& scene, std::uint64_t voxels_met, DataSheet& sheet) const;
 
   PaperConfig config_;

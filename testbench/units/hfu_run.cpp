@@ -120,8 +120,11 @@ void check_counters(UnitBench& bench, const HfuPlan& plan, const Totals& all, bo
   check_busy(bench, "coarse", all.gaussians + shares,
              coarse * (plan.config.cfu_interval_cycles() + plan.config.cfus), 0);
   // Marks may pass beside the lanes; a stall of the FIFO behind counts in place of their work.
-  const std::uint64_t of_test = quantised ? interval : std::max(interval, read_cycles);
-  check_busy(bench, "fine", tests * of_test + shares, tests * (interval - 1),
+  // Several FFUs are busy at a time.
+  const std::uint64_t of_read = quantised ? 1 : read_cycles, all_busy = std::max(interval, of_read);
+  const std::uint64_t of_test = plan.config.ffus > 1 ? of_read : all_busy;
+  const std::uint64_t turns = interval - 1 + (all_busy - of_test);
+  check_busy(bench, "fine", tests * of_test + shares, tests * turns,
              shares + (bench.without_stalls() ? 0 : tests * interval));
   if (!quantised) return;
   bench.check_counter("records_decoded", all.passed);

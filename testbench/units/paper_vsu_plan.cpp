@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "algorithm/render/paper_renderer.h"
+#include "algorithm/voxel/cell_samples.h"
 #include "algorithm/voxel/ray_path.h"
 #include "algorithm/voxel/ray_sampling.h"
 #include "algorithm/voxel/voxel_cuts.h"
@@ -30,7 +31,12 @@ void count_events(const PaperVsuPlan& plan, const PixelRect& group, Path path,
 void count_events(const PaperVsuPlan& plan, const PixelRect& group, ExpectedVisits& out) {
   const RayPattern rays = plan.config.rays();
   const VoxelFrame& frame = plan.scene.grid.frame;
-  if (rays.sample_step_voxels > 0) {
+  if (rays.by_coordinates) {
+    const SampleSpace space =
+        sample_space(plan.scene.job.view.position, frame, occupied_cells(plan.scene.grid),
+                     rays.sample_step_voxels);
+    count_events(plan, group, CellSamplePath(frame, space), out);
+  } else if (rays.sample_step_voxels > 0) {
     count_events(plan, group, SamplePath(frame, rays.sample_step_voxels), out);
   } else {
     count_events(plan, group, RayPath<float>(frame), out);
@@ -62,6 +68,10 @@ PaperVsuPlan paper_vsu_plan_of(TestScene scene) {
 std::uint64_t macs_of_a_step() { return folded_macs(ray_step_flow(longest_step_case()).counts()); }
 std::uint64_t macs_of_a_beginning() { return folded_macs(pixel_ray_flow().counts()); }
 
+std::uint64_t macs_of_a_sampled_beginning() { return folded_macs(sampled_ray_flow().counts()); }
+
+std::uint64_t macs_of_a_sample() { return folded_macs(ray_sample_flow().counts()); }
+
 std::uint64_t comparisons_of_a_step() {
   return comparisons(ray_step_flow(longest_step_case()).counts());
 }
@@ -70,7 +80,7 @@ std::uint64_t comparisons_of_a_beginning() { return comparisons(pixel_ray_flow()
 ExpectedVisits expect(const PaperVsuPlan& plan) {
   ExpectedVisits out;
   const VoxelGrid& grid = plan.scene.grid;
-  OrderingTable table(grid.voxels.size(), plan.config.table_bytes);
+  OrderingTable table(grid.voxels.size(), plan.config.table_bytes, plan.config.line_destinations());
   for (const PixelRect& group : plan.scene.job.groups) {
     const RayPattern rays = plan.config.rays();
     const OrderingAccesses before = table.accesses();

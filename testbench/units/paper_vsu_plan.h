@@ -31,6 +31,8 @@ inline std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b 
 // Multiply-accumulates.
 std::uint64_t macs_of_a_step();
 std::uint64_t macs_of_a_beginning();
+std::uint64_t macs_of_a_sampled_beginning();
+std::uint64_t macs_of_a_sample();
 // Beside them.
 std::uint64_t comparisons_of_a_step();
 std::uint64_t comparisons_of_a_beginning();

@@ -202,6 +202,7 @@ void random_case(Case& test) {
   config.cfus = 1 + static_cast<std::uint32_t>(random() % 6);
   config.cfu_lanes = 1 + static_cast<std::uint32_t>(random() % 60);
   config.cfu_depth_cycles = 1 + static_cast<std::uint32_t>(random() % 20);
+  config.ffus = random() % 3 == 0 ? 2 + static_cast<std::uint32_t>(random() % 8) : 1;
   config.ffu_lanes = 1 + static_cast<std::uint32_t>(random() % 430);
   config.coarse_filter = random() % 4 != 0;
   config.slice_gaussians = 2 * (1 + static_cast<std::uint32_t>(random() % 64));

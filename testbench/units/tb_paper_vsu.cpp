@@ -157,11 +157,85 @@ void check_traversal(UnitBench& bench, const PaperVsuPlan& plan, const ExpectedV
   }
 }
 
+void check_rays(UnitBench& bench, const PaperVsuPlan& plan, const ExpectedVisits& expected) {
+  Checks& checks = bench.checks();
+  // Where the table overflows, rays behind the one that did not fit have begun as well.
+  const std::uint64_t rays = bench.counter("rays"), steps = bench.counter("steps");
+  checks.that(rays >= expected.rays &&
+                  rays <= expected.rays + expected.overflows * (plan.config.rays_in_flight - 1),
+              "rays");
+  checks.that(expected.overflows > 0 ? steps >= expected.steps : steps == expected.steps, "steps");
+  bench.check_operations("vsu", "fp32_lane",
+                         (steps - rays) * macs_of_a_step() + rays * macs_of_a_beginning());
+}
+
+// Samples: of rays that lie in no window, since what they meet first is behind it, none are looked
+// at. Without passes all are, each with its lanes; a cell is looked up once a ray.
+void check_samples(UnitBench& bench, const PaperVsuPlan& plan, const ExpectedVisits& expected) {
+  Checks& checks = bench.checks();
+  const std::uint64_t rays = bench.counter("rays"), samples = bench.counter("samples");
+  checks.equal(rays, expected.rays, "rays");
+  bench.check_operations("vsu", "fp32_lane",
+                         samples * macs_of_a_sample() + rays * macs_of_a_sampled_beginning());
+  checks.that(bench.counter("cells_looked_up") <= samples, "cells without a sample");
+  if (expected.overflows > 0) return;
+  checks.equal(bench.counter("steps"), expected.steps, "steps");
+  checks.that(samples <= expected.steps, "samples");
+  const std::uint64_t busy = bench.busy_cycles("vsu");
+  checks.that(busy * plan.config.samples_per_cycle >= samples, "more samples a cycle");
+  checks.that(busy >= bench.counter("cells_looked_up"), "more than a look-up a cycle");
+  checks.that(busy >= expected.met, "more than a voxel entered a cycle");
+  // Rays begin while a table waits for memory, too.
+  const bool all_on_chip =
+      bench.counter("renaming_misses") + bench.counter("adjacency_lines_back") == 0;
+  checks.that(!all_on_chip || busy * plan.config.ray_lanes >= rays * macs_of_a_sampled_beginning(),
+              "too many rays");
+  const std::uint64_t clearing =
+      Renaming::slots_for(OrderingTable::most_voxels(plan.config.table_bytes)) / 4;
+  const OrderingAccesses& table = expected.table;
+  bench.check_accesses("ordering table", table.reads, table.writes);
+  bench.check_accesses("renamed voxels", table.names_read,
+                       table.names_written + expected.orderings * clearing);
+  bench.check_accesses("ready voxels", table.ready_read, table.ready_written);
+}
+
+// A line a miss.
+void check_tree_traffic(UnitBench& bench, const PaperVsuPlan& plan, std::uint64_t node_misses,
+                        std::uint64_t record_misses) {
+  Checks& checks = bench.checks();
+  checks.equal(bench.counter("node_cache_misses"), node_misses, "misses of the tree's cache");
+  checks.that(bench.bytes_read() <= kLineBytes * (node_misses + record_misses),
+              "bytes read: more than a line a miss");
+  // A cache that holds all of the tree fetches each of its lines once.
+  const std::uint64_t tree_bytes = plan.scene.grid.nodes.size() * sizeof(VoxelNode);
+  if (tree_bytes <= plan.config.node_cache_bytes) {
+    checks.that(node_misses <= ceil_div(tree_bytes, kLineBytes), "lines of the tree fetched again");
+  }
+}
+
+// A line of names a miss, and lines of edges out and back.
+void check_table_traffic(UnitBench& bench, const PaperVsuPlan& plan, std::uint64_t transactions) {
+  Checks& checks = bench.checks();
+  const std::uint64_t misses = bench.counter("renaming_misses");
+  const std::uint64_t out = bench.counter("adjacency_lines_out");
+  checks.equal(misses + out + bench.counter("adjacency_lines_back"), transactions,
+               "lines of both tables");
+  checks.equal(bench.bytes_written(), out * 2 * plan.config.adjacency_destinations,
+               "bytes of edges written");
+  const std::uint64_t table_bytes = plan.scene.job.renaming.records.bytes();
+  if (table_bytes <= plan.config.renaming_bytes) {
+    checks.that(misses <= ceil_div(table_bytes, kLineBytes), "lines of names fetched again");
+  }
+}
+
 void run_plan(Case& test, const BenchConfig& bench_config, const PaperVsuPlan& plan) {
   const ExpectedVisits expected = expect(plan);
   UnitBench bench(test, bench_config);
   Checks& checks = bench.checks();
   bench.load(0, plan.scene.image.bytes);
+  if (const auto& table = plan.scene.job.renaming.contents) {
+    bench.load(plan.scene.job.renaming.records.base, *table);
+  }
   ReportedGroups finished(bench.clock(), plan.scene.job.groups.size(), plan.feedback_cycles);
   for (std::uint32_t g = 0; plan.finished_before && g < plan.scene.job.groups.size(); ++g) {
     finished.finish(g);
@@ -194,15 +268,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, const PaperVsuPlan& p
 
   const std::uint64_t visits = bench.counter("visits");
   if (plan.finished_before) checks.equal(visits, 0U, "visits of finished groups");
-  // Where the table overflows, rays behind the one that did not fit have begun as well.
-  const std::uint64_t rays = bench.counter("rays"), steps = bench.counter("steps");
-  checks.that(rays >= expected.rays &&
-                  rays <= expected.rays + expected.overflows * (plan.config.rays_in_flight - 1),
-              "rays");
-  checks.that(expected.overflows > 0 ? steps >= expected.steps : steps == expected.steps, "steps");
   bench.check_counter("edges", expected.edges);
-  bench.check_operations("vsu", "fp32_lane",
-                         (steps - rays) * macs_of_a_step() + rays * macs_of_a_beginning());
+  plan.config.samples() ? check_samples(bench, plan, expected) : check_rays(bench, plan, expected);
   // Each voxel is opened, and two pieces for a cut; what is left of a finished group's is dropped.
   const std::uint64_t pieces = bench.counter("voxels") + 2 * bench.counter("cuts");
   bench.check_accesses("open pieces", visits + bench.counter("cuts"), pieces);
@@ -225,21 +292,16 @@ void run_plan(Case& test, const BenchConfig& bench_config, const PaperVsuPlan& p
   bench.check_counter("overflows", expected.overflows);
   checks.equal(expected.overflows > 0, expected.passes > plan.scene.job.groups.size(),
                "a table that overflows is ordered in passes");
-  check_traversal(bench, plan, expected, unit.node_memory.transactions());
   checks.equal(bench.busy_cycles("visits"), visits + bench.counter("cuts") + expected.groups.size(),
                "busy cycles of handing out");
-  // A line a miss.
-  const std::uint64_t node_misses = unit.node_memory.transactions();
   const std::uint64_t record_misses = unit.record_memory.transactions();
-  checks.equal(bench.counter("node_cache_misses"), node_misses, "misses of the tree's cache");
   checks.equal(bench.counter("record_cache_misses") + bench.counter("cut_cache_misses"),
                record_misses, "misses of the voxels' caches");
-  checks.that(bench.bytes_read() <= kLineBytes * (node_misses + record_misses),
-              "bytes read: more than a line a miss");
-  // A cache that holds all of the tree fetches each of its lines once.
-  const std::uint64_t tree_bytes = plan.scene.grid.nodes.size() * sizeof(VoxelNode);
-  if (tree_bytes <= plan.config.node_cache_bytes) {
-    checks.that(node_misses <= ceil_div(tree_bytes, kLineBytes), "lines of the tree fetched again");
+  if (plan.config.samples()) {
+    check_table_traffic(bench, plan, unit.node_memory.transactions());
+  } else {
+    check_traversal(bench, plan, expected, unit.node_memory.transactions());
+    check_tree_traffic(bench, plan, unit.node_memory.transactions(), record_misses);
   }
 }
 
@@ -252,6 +314,20 @@ BenchConfig still_bench(const PaperVsuPlan& plan) {
 void directed(Case& test, const SceneShape& shape) {
   const PaperVsuPlan plan = paper_vsu_plan_of(random_scene(test.random, shape));
   run_plan(test, still_bench(plan), plan);
+}
+
+void sample_rays(std::mt19937_64& random, PaperVsuPlan& plan) {
+  PaperVsuConfig& config = plan.config;
+  config.samples_per_cycle = 1 + static_cast<std::uint32_t>(random() % 5);
+  config.sample_step_voxels = random() % 2 == 0 ? 0.5 : 1.3;
+  const auto of_ray =
+      static_cast<std::uint32_t>(ceil_div(macs_of_a_sampled_beginning(), config.ray_lanes));
+  config.ray_depth_cycles = of_ray + static_cast<std::uint32_t>(random() % 100);
+  config.renaming = random() % 2 == 0 ? RenamingForm::kHashed : RenamingForm::kDense;
+  config.renaming_bytes = 128U << (random() % 6);
+  config.adjacency_lines = 1 + static_cast<std::uint32_t>(random() % 80);
+  config.adjacency_destinations = 1 + static_cast<std::uint32_t>(random() % 9);
+  SampledRays::place_tables(config, plan.scene.grid, plan.scene.job);
 }
 
 void random_case(Case& test) {
@@ -282,6 +358,7 @@ void random_case(Case& test) {
   if (random() % 2 == 0) plan.config.table_bytes = 8 + static_cast<std::uint32_t>(random() % 400);
   plan.config.visit_gaussians =
       random() % 2 == 0 ? 0 : 1 + static_cast<std::uint32_t>(random() % 300);
+  if (random() % 3 == 0) sample_rays(random, plan);
   plan.saturate_one_in = random() % 3 == 0 ? 5 : 0;
   plan.feedback_cycles = 1 + static_cast<std::uint32_t>(random() % 40);
   run_plan(test, random_bench(random, memory_bytes(plan.scene.job)), plan);
@@ -319,6 +396,17 @@ int sc_main(int argc, char* argv[]) {
   SceneShape fine = shape;
   fine.voxel_size = 0.001F;
   runner.add_directed("a voxel for each Gaussian", [=](Case& test) { directed(test, fine); });
+  for (const RenamingForm form : {RenamingForm::kHashed, RenamingForm::kDense}) {
+    const char* name = form == RenamingForm::kDense ? "dense" : "hashed";
+    runner.add_directed(fmt::format("sampled rays, {} renaming table", name), [=](Case& test) {
+      PaperVsuPlan plan = paper_vsu_plan_of(random_scene(test.random, shape));
+      plan.config.samples_per_cycle = 2;
+      plan.config.sample_step_voxels = 0.5;
+      plan.config.renaming = form;
+      SampledRays::place_tables(plan.config, plan.scene.grid, plan.scene.job);
+      run_plan(test, still_bench(plan), plan);
+    });
+  }
   SceneShape pixel = shape;
   pixel.width_px = pixel.height_px = 1;
   runner.add_directed("1x1 frame", [=](Case& test) { directed(test, pixel); });

@@ -1,6 +1,7 @@
-"""Every README.md keeps to the rules of its prose: a budget of words, short sentences, no number that
-somebody measured and typed, no history, no dead link. Tables between `<!-- table: NAME -->` or
-`<!-- rows: NAME -->` and `<!-- end -->` are generated: nothing here reads them."""
+"""Every README.md, and PAPER.md beside one, keeps to the rules of its prose: a budget of words, short
+sentences, no number that somebody measured and typed, no history, no dead link. Tables between
+`<!-- table: NAME -->` or `<!-- rows: NAME -->` and `<!-- end -->` are generated: nothing here reads
+them."""
 
 from __future__ import annotations
 
@@ -31,6 +32,7 @@ BUDGETS = {
     "modules/datapath/rtl/README.md": 600,
     "modules/dram/README.md": 1200,
     "modules/gscore/README.md": 1500,
+    "modules/streaminggs/PAPER.md": 1900,
     "modules/streaminggs/README.md": 2500,
     "modules/streaminggs/hfu/README.md": 700,
     "modules/streaminggs/merge/README.md": 600,
@@ -204,7 +206,7 @@ def faults_of_sources(path: pathlib.Path, text: str) -> Iterator[tuple[int, str]
 
 def readmes() -> dict[str, pathlib.Path]:
     found = {}
-    for path in sorted(REPOSITORY.rglob("README.md")):
+    for path in sorted([*REPOSITORY.rglob("README.md"), *REPOSITORY.rglob("PAPER.md")]):
         place = path.relative_to(REPOSITORY)
         if place.parts[0] not in NOT_SOURCES and not place.parts[0].startswith("."):
             found[place.as_posix()] = path

@@ -134,6 +134,8 @@ TEST_CASE("refusals: keys, types, ranges and combinations") {
                     {"--set vsu.ray_step_px=65: vsu.ray_step_px: got 65, expected at most 64"});
   check_set_refused("paper", {"fetch=shared", "sorting_units=3"},
                     {"sorting_units: got 3", "divisor or a multiple of hfus 4"});
+  check_set_refused("paper", {"vsu.samples_per_cycle=1"},
+                    {"vsu.sample_step_voxels: got 0 with vsu.samples_per_cycle 1, expected more"});
   check_set_refused("paper", {"vsu.table_bytes=8"},
                     {"vsu.table_bytes: got 8, expected at least 16", "vsu.table_banks 2"});
   check_set_refused("gscore", {"lists.pool_bytes=99999999999"},

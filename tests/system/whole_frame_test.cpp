@@ -169,9 +169,22 @@ TEST_CASE("whole frame: groups that are ordered in passes, with and without stal
 }
 
 TEST_CASE("whole frame: sampled rays, paper order") {
-  Simulation({"builtin:object?n=3000", "--size", "64x36", "--config", "paper", "--set",
-              "vsu.sample_step_voxels=0.5"})
-      .check();
+  const Arguments common = {
+      "builtin:object?n=3000",     "--size", "64x36", "--config", "paper", "--set",
+      "vsu.sample_step_voxels=0.5"};
+  Simulation(common).check();
+  // Voxels by the coordinates of samples; tables on chip, then mostly in DRAM.
+  const Arguments sampled =
+      joined(common, {"--set", "vsu.samples_per_cycle=2", "--set", "sram.shared_bytes=0"});
+  Simulation(sampled).check();
+  const Simulation narrow(
+      joined(sampled, {"--set", "storage.voxel_size=0.2", "--set", "vsu.renaming=dense", "--set",
+                       "vsu.renaming_bytes=128", "--set", "vsu.adjacency_lines=1", "--set",
+                       "vsu.adjacency_destinations=1"}));
+  narrow.check();
+  CHECK(counter(narrow.views()[0], "vsu", "adjacency_lines_back") > 0);
+  CHECK(region_bytes(narrow.views()[0], "adjacency", "write") > 0);
+  CHECK(region_bytes(narrow.views()[0], "renaming_table", "read") > 0);
 }
 
 TEST_CASE("whole frame: eight bits are the floats, rounded") {

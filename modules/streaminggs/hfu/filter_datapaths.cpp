@@ -31,6 +31,7 @@ Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by, std::u
 Datapath fine_datapath(const HfuConfig& config, const FineRecord& record) {
   Datapath path = counted_datapath("fine", "fine", fine_flow(longest_case(), record).all.counts());
   path.lanes = config.ffu_lanes;
+  path.copies = config.ffus;
   path.used_macs = config.ffu_macs;
   path.published_macs = kPaperFfuMacs;
   return path;

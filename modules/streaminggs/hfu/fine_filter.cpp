@@ -37,10 +37,9 @@ FineFilter::FineFilter(const sc_core::sc_module_name& name, const HfuConfig& con
                         context.built_for.single, context.built_for.fine_records),
           static_cast<std::uint32_t>(context.job.parts.size()))),
       record_bytes_(job_.layout.second_halves.record_bytes),
-      test_cycles_(
-          job_.layout.second_half.quantised()
-              ? tests_.interval_cycles()
-              : std::max<std::uint64_t>(tests_.interval_cycles(), read_cycles(record_bytes_))),
+      test_cycles_(std::max<std::uint64_t>(
+          config.ffus > 1 ? 1 : tests_.interval_cycles(),
+          job_.layout.second_half.quantised() ? 1 : read_cycles(record_bytes_))),
       second_halves_(std::size_t{config.second_half_slots} * record_bytes_),
       wanted_(config.second_half_slots),
       free_slots_("free_slots", context.clock, config.second_half_slots,
@@ -185,7 +184,7 @@ void FineFilter::filter_decoded(Part& part) {
   take_up(front.candidate, part.filter);
   wait_for_place(part, front.candidate.visit);
   const bool wanted = is_wanted(part, front.candidate);
-  if (wanted) wait_for_turn(part.filter, tests_.interval_cycles());
+  if (wanted) wait_for_turn_of_one(part);
   const Decoded next = front;
   part.stage->decoded.remove_front();
   if (next.candidate.mark != Mark::kNone) {
@@ -211,7 +210,7 @@ void FineFilter::filter_fetched(Part& part) {
   ++counters_.second_halves_taken;
   wait_for_place(part, next.candidate.visit);
   const bool wanted = is_wanted(part, next.candidate);
-  if (wanted) wait_for_turn(part.filter, tests_.interval_cycles());
+  if (wanted) wait_for_turn_of_one(part);
   next.second = read_slot(part, next.candidate);
   free_slot(next.candidate.buffer, part.filter);
   part.fetched.remove_front();
@@ -225,6 +224,13 @@ void FineFilter::filter_fetched(Part& part) {
 bool FineFilter::is_wanted(const Part& part, const FineCandidate& candidate) const {
   return candidate.mark == Mark::kNone &&
          !finished[static_cast<int>(part.index)]->finished(candidate.group);
+}
+
+// The FFUs have their turns a cycle after each other.
+void FineFilter::wait_for_turn_of_one(Part& part) const {
+  const std::uint64_t now = part.filter.clock().now_cycles(), of_test = tests_.interval_cycles();
+  const std::uint64_t interval = cycles_for(config_.ffus, of_test) * of_test;
+  part.filter.work(next_turn_of_one(now, interval, config_.ffus) - now);
 }
 
 void FineFilter::wait_for_place(Part& part, std::uint32_t visit) {
@@ -260,6 +266,8 @@ void FineFilter::test(Part& part, const Decoded& decoded) {
       work_lanes(part, end);
     }
   }
+  // The lanes of several work beside what is waited for.
+  if (config_.ffus > 1) part.filter.works_until(began + tests_.interval_cycles());
 }
 
 // A mark passes beside the lanes.

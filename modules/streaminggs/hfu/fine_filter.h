@@ -2,10 +2,11 @@
 // candidate, decodes it and puts it through the FFU: projection, exact test against the group,
 // colour. With a shared fetch a second half is read once and taken by the HFU of each part of the
 // group that the candidate may touch; its slot is free when all have it.
-// Timing: one candidate every ffu_interval_cycles in each FFU; marks pass beside its lanes. Each
-// begins only with a place in the FIFO behind its pipeline. second_half_slots fetches run ahead.
-// Quantised second halves pass a stage before the FFU that reads the codebook buffer, each once
-// there is a place for the decoded record. Function: algorithm/splat/make_splat.h.
+// Timing: one candidate every ffu_interval_cycles in each FFU, whose turns follow each other by a
+// cycle; marks pass beside the lanes. Each begins only with a place in the FIFO behind its
+// pipeline. second_half_slots fetches run ahead. Quantised second halves pass a stage before the
+// FFU that reads the codebook buffer, each once there is a place for the decoded record. Function:
+// algorithm/splat/make_splat.h.
 #pragma once
 
 #include <cstddef>
@@ -125,6 +126,7 @@ class FineFilter : public sc_core::sc_module {
   void pass_mark(Part& part, const FineCandidate& candidate);
   bool mark_is_next(Part& part);
   void work_lanes(Part& part, std::uint64_t end);
+  void wait_for_turn_of_one(Part& part) const;
   void wait_for_place(Part& part, std::uint32_t visit);
   void test(Part& part, const Decoded& decoded);
   void hand_on(Part& part, const Decoded& decoded, std::uint64_t began);
@@ -140,8 +142,8 @@ class FineFilter : public sc_core::sc_module {
   Activity fetch_;
   const Datapath tests_;
   const std::uint32_t record_bytes_;
-  // Cycles from a test to the next: of its lanes, or until its record is read where no stage reads
-  // it ahead.
+  // Cycles from a test to the next, at least: until its record is read where no stage reads it
+  // ahead, and of a single FFU as long as its lanes take.
   const std::uint64_t test_cycles_;
   std::vector<std::byte> second_halves_;  // [second_half_slots] records
   std::vector<std::uint32_t> wanted_;     // [second_half_slots] parts that have not yet taken it

@@ -72,6 +72,7 @@ void FineFilter::publish(DataSheet& sheet) {
   for (const auto& part : parts_) {
     sheet.queue(part->fetched, "fetched candidates");
     sheet.remedy(part->filter, "hfu.ffu_lanes");
+    sheet.may_help("hfu.ffus");
     sheet.remedy(part->fetched, WaitFor::kRoom, "hfu.second_half_slots");
     if (!part->stage) continue;
     sheet.queue(part->stage->decoded, "decoded Gaussians");

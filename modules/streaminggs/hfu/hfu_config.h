@@ -22,6 +22,7 @@ struct HfuConfig {
   std::uint32_t cfu_macs = 0;
   std::uint32_t cfu_lanes = 4;
   std::uint32_t cfu_depth_cycles = 0;
+  std::uint32_t ffus = 1;
   std::uint32_t ffu_macs = 0;
   std::uint32_t ffu_lanes = 16;
   std::uint32_t ffu_depth_cycles = 0;
@@ -49,6 +50,7 @@ inline void visit(ConfigVisitor& v, HfuConfig& c) {
   v("cfu_lanes", c.cfu_lanes, in_range(1, 10000), "MAC lanes of one CFU");
   v("cfu_depth_cycles", c.cfu_depth_cycles, in_range(0, 10000),
     "latency of a coarse test; 0: by its schedule");
+  v("ffus", c.ffus, in_range(1, 64), "fine filters in one HFU, behind one fetch and one decoder");
   v("ffu_macs", c.ffu_macs, in_range(0, 10000),
     "multiply-accumulates of a fine test; 0: by hfu.cost");
   v("ffu_lanes", c.ffu_lanes, in_range(1, 10000), "MAC lanes of one FFU");

@@ -29,19 +29,27 @@ PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& co
       job_(context.job),
       traverse_("traverse", context.clock),
       emit_("emit", context.clock),
-      rays_(config, context.built_for.single, context.clock, traverse_, node_memory,
-            job_.layout.voxel_table().nodes,
-            {[this] { ordered_.wait_for_room(1, TimedFifo<OrderedPass>::kNever, traverse_); },
-             [this](const std::vector<std::uint32_t>& voxels, bool last) {
-               hand_over(voxels, last);
-             }}),
       records_(config.record_cache_bytes, job_.layout.voxel_table().voxels),
       cuts_(config.cut_cache_bytes, job_.layout.voxel_table().cuts),
-      table_(job_.layout.voxel_table().voxels.count, config.table_bytes),
+      table_(job_.layout.voxel_table().voxels.count, config.table_bytes,
+             config.line_destinations()),
       ordered_("ordered", context.clock, config.groups_ahead) {
   SC_THREAD(run_traverse);
-  SC_THREAD(run_arrivals);
   SC_THREAD(run_emit);
+  const OperationLatencies& latencies = context.built_for.single;
+  if (config.samples()) {
+    samples_ =
+        std::make_unique<SampledRays>(config, latencies, traverse_, node_memory, job_, lists());
+    return;
+  }
+  rays_ = std::make_unique<RayUnit>(config, latencies, context.clock, traverse_, node_memory,
+                                    job_.layout.voxel_table().nodes, lists());
+  SC_THREAD(run_arrivals);
+}
+
+ListsOut PaperVsu::lists() {
+  return {[this] { ordered_.wait_for_room(1, TimedFifo<OrderedPass>::kNever, traverse_); },
+          [this](const std::vector<std::uint32_t>& voxels, bool last) { hand_over(voxels, last); }};
 }
 
 void PaperVsu::run_traverse() {
@@ -69,16 +77,17 @@ GroupVisits PaperVsu::order_group(const PixelRect& pixels) {
     hand_over({}, true);
     return {};
   }
+  if (samples_) return group_visits(pixels, *samples_, table_);
   if (config_.sample_step_voxels > 0) {
     const SamplePath path(voxels.frame, config_.rays().sample_step_voxels);
-    RaysInFlight in_flight(job_.view, path, rays_);
+    RaysInFlight in_flight(job_.view, path, *rays_);
     return group_visits(pixels, in_flight, table_);
   }
-  RaysInFlight in_flight(job_.view, RayPath<float>(voxels.frame), rays_);
+  RaysInFlight in_flight(job_.view, RayPath<float>(voxels.frame), *rays_);
   return group_visits(pixels, in_flight, table_);
 }
 
-void PaperVsu::run_arrivals() { rays_.fetches.run_arrivals(node_memory, traverse_.clock()); }
+void PaperVsu::run_arrivals() { rays_->fetches.run_arrivals(node_memory, traverse_.clock()); }
 
 void PaperVsu::hand_over(const std::vector<std::uint32_t>& voxels, bool last) {
   ++counters_.passes;
@@ -151,7 +160,8 @@ void PaperVsu::mark_end(std::uint32_t group) {
 
 SramUses PaperVsu::sram_uses(const PaperVsuConfig& config, const BuiltFor& built_for) {
   // A table of b bytes orders at most b / 8 voxels; each waits as a 4-byte id.
-  SramUses uses = RayUnit::sram_uses(config);
+  SramUses uses =
+      config.samples() ? SampledRays::sram_uses(config, built_for) : RayUnit::sram_uses(config);
   add(uses, TableCache<VoxelRecord>::sram_uses("record cache", "record cache tags", kSharedSram,
                                                config.record_cache_bytes));
   add(uses, TableCache<float>::sram_uses("cut cache", "cut cache tags", kSharedSram,
@@ -170,10 +180,10 @@ void PaperVsu::publish(DataSheet& sheet) {
   sheet.activity(traverse_, "vsu", "follows rays and orders the voxels of a group");
   sheet.activity(emit_, "visits", "hands out ordered voxels as visits");
   sheet.counters(counters_);
-  sheet.counter("node_cache_misses", "nodes", "read from DRAM", rays_.nodes.misses());
+  if (rays_) sheet.counter("node_cache_misses", "nodes", "read from DRAM", rays_->nodes.misses());
   sheet.counter("cut_cache_misses", "planes", "of cut voxels read from DRAM", cuts_.misses());
   sheet.counter("record_cache_misses", "voxel records", "read from DRAM", records_.misses());
-  rays_.publish(sheet);
+  samples_ ? samples_->publish(sheet) : rays_->publish(sheet);
   records_.publish_accesses(sheet, "record cache", "record cache tags");
   cuts_.publish_accesses(sheet, "cut cache", "cut cache tags");
   // A voxel is entered, and taken in two for each cut; what is visited is taken.
@@ -191,16 +201,17 @@ void PaperVsu::publish(DataSheet& sheet) {
                  counters_.visits_saturated, "their Gaussians are not streamed");
   publish_spare(sheet, "spare_table_bytes", "vsu.table_bytes", config_.table_bytes,
                 counters_.ordering_table_bytes_max, config_.least_table_bytes());
-  sheet.port(node_memory);
+  samples_ ? sheet.port(node_memory, "adjacency writes") : sheet.port(node_memory);
   sheet.port(record_memory);
   // Where the table is full a group's rays are followed again.
-  sheet.remedy(traverse_, cycles_of_full_tables_ > cycles_of_others_ ? Remedy("vsu.table_bytes")
-                                                                     : rays_.remedy());
-  for (const char* key : {"vsu.rays_in_flight", "vsu.node_fetches", "vsu.step_lanes",
-                          "vsu.ray_lanes", "vsu.table_bytes"}) {
+  const Remedy of_rays = samples_ ? samples_->remedy() : rays_->remedy();
+  sheet.remedy(traverse_,
+               cycles_of_full_tables_ > cycles_of_others_ ? Remedy("vsu.table_bytes") : of_rays);
+  for (const char* key : samples_ ? SampledRays::kMayHelp : RayUnit::kMayHelp) {
     sheet.may_help(key);
   }
-  sheet.remedy(node_memory, WaitFor::kReads, "vsu.node_cache_bytes");
+  sheet.remedy(node_memory, WaitFor::kReads,
+               samples_ ? "vsu.renaming_bytes" : "vsu.node_cache_bytes");
   sheet.remedy(record_memory, WaitFor::kReads, "vsu.record_cache_bytes");
   sheet.sram(sram_uses(config_, built_for_));
   sheet.queue(ordered_, "ordered voxels");

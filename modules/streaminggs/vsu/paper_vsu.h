@@ -1,11 +1,13 @@
 // Voxel sorting unit (VSU), paper order. For each pixel group it follows the pixels' rays through
-// the voxel tree and orders the voxels that they meet. Each voxel is handed out as a visit to the
-// HFUs; one with more Gaussians than a list holds in pieces, the nearest first.
-// Timing: rays_in_flight.h, ray_unit.h; one cycle a visit and a cut; table misses wait for DRAM.
+// the voxel tree, or samples them, and orders the voxels that they meet. Each voxel is handed out
+// as a visit to the HFUs; one with more Gaussians than a list holds in pieces, the nearest first.
+// Timing: rays_in_flight.h, ray_unit.h, sampled_rays.h; one cycle a visit and a cut; table misses
+// wait for DRAM.
 // Function: algorithm/order/group_visits.h, algorithm/voxel/voxel_cuts.h.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <systemc>
 #include <vector>
 
@@ -15,6 +17,7 @@
 #include "modules/streaminggs/unit_context.h"
 #include "modules/streaminggs/vsu/paper_vsu_config.h"
 #include "modules/streaminggs/vsu/ray_unit.h"
+#include "modules/streaminggs/vsu/sampled_rays.h"
 #include "modules/streaminggs/vsu/table_cache.h"
 #include "tlm/data_sheet.h"
 #include "tlm/memory_access.h"
@@ -26,7 +29,7 @@ class PaperVsu : public sc_core::sc_module {
  public:
   FifoOuts<VisitShare> shares{"shares"};   // one a fetch
   FinishedGroupsIns finished{"finished"};  // one for each part of the groups
-  MemoryPort node_memory;                  // tree nodes, for the rays
+  MemoryPort node_memory;                  // tree nodes, or tables of samples, for the rays
   MemoryPort record_memory;                // voxel records, for the visits
 
   SC_HAS_PROCESS(PaperVsu);
@@ -62,8 +65,9 @@ class PaperVsu : public sc_core::sc_module {
     std::vector<std::uint32_t> voxels;
   };
   void run_traverse();  // thread: rays to lists of ordered voxels
-  void run_arrivals();  // thread: waits for the tree's nodes
+  void run_arrivals();  // thread: waits for the tree's nodes, where rays follow it
   void run_emit();      // thread: ordered voxels to visits
+  ListsOut lists();
   GroupVisits order_group(const PixelRect& pixels);
   void hand_over(const std::vector<std::uint32_t>& voxels, bool last);
   void visit_voxel(std::uint32_t group, std::uint32_t voxel);
@@ -74,7 +78,8 @@ class PaperVsu : public sc_core::sc_module {
   const BuiltFor built_for_;
   const StreamingJob& job_;
   Activity traverse_, emit_;
-  RayUnit rays_;
+  std::unique_ptr<RayUnit> rays_;         // through the tree
+  std::unique_ptr<SampledRays> samples_;  // or sampled: the one or the other
   TableCache<VoxelRecord> records_;
   TableCache<float> cuts_;
   OrderingTable table_;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "algorithm/order/group_visits.h"
+#include "algorithm/voxel/renaming_table.h"
 #include "modules/config/config_visitor.h"
 
 namespace sgs {
@@ -20,6 +21,10 @@ struct PaperVsuConfig {
   std::uint32_t table_banks = 2;
   std::uint32_t ray_step_px = 2;
   double sample_step_voxels = 0;
+  std::uint32_t samples_per_cycle = 0;
+  RenamingForm renaming = RenamingForm::kHashed;
+  std::uint32_t renaming_bytes = 8192;
+  std::uint32_t adjacency_lines = 256, adjacency_destinations = 7;
   std::uint32_t groups_ahead = 1;
   std::uint32_t table_bytes = 4096;
   std::uint32_t node_cache_bytes = 2048;
@@ -35,13 +40,19 @@ struct PaperVsuConfig {
   }
   // A word in each bank.
   std::uint32_t least_table_bytes() const { return kTableWordBytes * table_banks; }
+  // VSU of the paper: voxels by the coordinates of samples, a renaming table, an adjacency table.
+  bool samples() const { return samples_per_cycle > 0; }
   RayPattern rays() const {
-    return {ray_step_px, static_cast<float>(sample_step_voxels), rays_in_flight};
+    return {ray_step_px, static_cast<float>(sample_step_voxels), samples() ? 1 : rays_in_flight,
+            samples()};
   }
+  // As OrderingTable's.
+  std::uint32_t line_destinations() const { return samples() ? adjacency_destinations : 0; }
 };
 
 inline void visit(ConfigVisitor& v, PaperVsuConfig& c) {
-  v("rays_in_flight", c.rays_in_flight, in_range(1, 1024), "rays that are followed side by side");
+  v("rays_in_flight", c.rays_in_flight, in_range(1, 1024),
+    "rays that are followed side by side, or begun ahead of the one that is sampled");
   v("chain_entries", c.chain_entries, in_range(1, 1024),
     "voxels that a ray keeps until those of the rays before it are in the ordering table");
   v("step_lanes", c.step_lanes, in_range(1, 10000), "MAC lanes of the rays' steps");
@@ -58,6 +69,19 @@ inline void visit(ConfigVisitor& v, PaperVsuConfig& c) {
     "rays of every so-many-th pixel of a group are followed, and of its last row and column");
   v("sample_step_voxels", c.sample_step_voxels, in_range(0, 10),
     "distance of samples on a ray; 0: every cell is visited");
+  v("samples_per_cycle", c.samples_per_cycle, in_range(0, 16),
+    "samples of a ray whose voxels are numbered by their coordinates, one ray after another; 0: "
+    "rays step through the tree side by side");
+  v("renaming", c.renaming,
+    names<RenamingForm>({{"hashed", RenamingForm::kHashed}, {"dense", RenamingForm::kDense}}),
+    "table of the voxels that hold Gaussians, where samples number them: hashed, or an entry a "
+    "cell");
+  v("renaming_bytes", c.renaming_bytes, in_range(128, 1 << 30),
+    "of it on chip; the rest is read from DRAM");
+  v("adjacency_lines", c.adjacency_lines, in_range(1, 1 << 16),
+    "of the adjacency table on chip, where samples number voxels; more go to DRAM");
+  v("adjacency_destinations", c.adjacency_destinations, in_range(1, 31),
+    "that a line holds of its source: all are compared at once");
   v("groups_ahead", c.groups_ahead, in_range(1, 64),
     "lists of ordered voxels, in the making or being handed out");
   v("table_bytes", c.table_bytes, in_range(kTableWordBytes, 1 << 30),

@@ -3,6 +3,7 @@
 // from DRAM. The kernel's time follows where a cycle matters to another unit.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -29,6 +30,9 @@ class RayUnit {
   // step is behind the last of these only: its node lies in the context.
   static constexpr std::uint64_t kLookUpCycles = 3, kMaskCycles = 1;
   static constexpr std::uint64_t kNever = ~std::uint64_t{0};
+  static constexpr std::array<const char*, 5> kMayHelp = {"vsu.rays_in_flight", "vsu.node_fetches",
+                                                          "vsu.step_lanes", "vsu.ray_lanes",
+                                                          "vsu.table_bytes"};
 
   // Cycles to find the earliest round, before a voxel is entered or the context of an ended ray is
   // given to another. The rounds of all rays are compared in a tree. The ray found first changes
@@ -125,6 +129,7 @@ class RayUnit {
 // Memories of the ordering table beside it: names of voxels, words of ready ones.
 constexpr std::uint32_t kNameBytes = 2;  // the number of a voxel
 constexpr std::uint32_t kNamesWord = 8;
+constexpr std::uint32_t kReadyWord = 4;
 std::uint64_t names_bytes(const PaperVsuConfig& config);
 std::uint64_t ready_words(const PaperVsuConfig& config);
 

@@ -17,7 +17,6 @@ constexpr std::uint32_t kNodeBytes = 12, kMetBytes = 8;
 constexpr std::uint32_t kRoundBytes = 2;
 constexpr std::uint32_t kRayBanks = 4;  // banks of memories shared by steps and look-ups, by ray
 constexpr std::uint32_t kTagBytes = 4;  // tag of a line on its way
-constexpr std::uint32_t kReadyWord = 4;
 
 // Bytes kept of a ray that waits: its line, or its place among those that found none for theirs.
 std::uint32_t waiting_bytes(const PaperVsuConfig& config) {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "algorithm/splat/counting.h"
+#include "algorithm/voxel/cell_samples.h"
 #include "algorithm/voxel/chunk_node.h"
 #include "algorithm/voxel/chunk_test.h"
 #include "algorithm/voxel/ray_path.h"
@@ -28,6 +29,34 @@ static CountingIndex cell_of(Counting coordinate, Counting voxel_size) {
 namespace {
 
 constexpr VoxelFrame kTwoLevels = {0.7F, glm::ivec3(0), 2};
+
+// A frame's view that looks along the diagonal of a box, with values of the datapath.
+View<Counting> diagonal_view(DataFlow& flow) {
+  View<Counting> view{};
+  const glm::vec3 rows[3] = {{0.71F, -0.71F, 0}, {0.41F, 0.41F, -0.82F}, {0.58F, 0.57F, 0.59F}};
+  const glm::vec3 eye{-3.1F, -2.9F, -3.3F};
+  for (int axis = 0; axis < 3; ++axis) {
+    view.position[axis] = input(flow, eye[axis]);
+    for (int row = 0; row < 3; ++row) {
+      view.cam_from_world[row][axis] = input(flow, rows[row][axis]);
+    }
+  }
+  view.focal_x = view.focal_y = Counting(300.0F);
+  view.centre_x = input(flow, 31.5F);
+  view.centre_y = input(flow, 23.5F);
+  return view;
+}
+
+// Numbers of the frame are values, but for the distance of samples. The eye lies beyond the box.
+SampleSpaceOf<Counting> diagonal_space(DataFlow& flow) {
+  SampleSpaceOf<Counting> space;
+  for (int axis = 0; axis < 3; ++axis) {
+    space.eye[axis] = input(flow, -4.3F + 0.2F * static_cast<float>(axis));
+    space.box[axis] = input(flow, 16);
+  }
+  space.step = input(flow, 0.5F);
+  return space;
+}
 
 Datapath pipeline(const char* name, const FlowPart& flow, std::uint32_t lanes,
                   const OperationLatencies& latencies) {
@@ -104,19 +133,8 @@ FlowPart pixel_ray_flow() {
   const auto recorded = std::make_shared<DataFlow>();
   DataFlow& flow = *recorded;
   const Counting voxel_size = input(flow, kTwoLevels.voxel_size);
-  View<Counting> view{};
   // Looks along the diagonal of the root, which begins at 0.
-  const glm::vec3 rows[3] = {{0.71F, -0.71F, 0}, {0.41F, 0.41F, -0.82F}, {0.58F, 0.57F, 0.59F}};
-  const glm::vec3 eye{-3.1F, -2.9F, -3.3F};
-  for (int axis = 0; axis < 3; ++axis) {
-    view.position[axis] = input(flow, eye[axis]);
-    for (int row = 0; row < 3; ++row) {
-      view.cam_from_world[row][axis] = input(flow, rows[row][axis]);
-    }
-  }
-  view.focal_x = view.focal_y = Counting(300.0F);
-  view.centre_x = input(flow, 31.5F);
-  view.centre_y = input(flow, 23.5F);
+  const View<Counting> view = diagonal_view(flow);
   const Counting x = input(flow, 33), y = input(flow, 22);
   // The eye's cell is found once a frame, and so is the reciprocal of the voxel size.
   for (int axis = 0; axis < 3; ++axis) {
@@ -125,6 +143,30 @@ FlowPart pixel_ray_flow() {
   const std::size_t from = flow.size();
   RayPath<Counting> path(kTwoLevels, voxel_size);
   path.begin(pixel_ray_of(view, x, y));
+  return {recorded, from, flow.size(), {}};
+}
+
+FlowPart sampled_ray_flow() {
+  const auto recorded = std::make_shared<DataFlow>();
+  DataFlow& flow = *recorded;
+  const View<Counting> view = diagonal_view(flow);
+  const Counting x = input(flow, 33), y = input(flow, 22);
+  CellSamples<Counting> samples(diagonal_space(flow));
+  const std::size_t from = flow.size();
+  samples.begin(pixel_direction(view, x, y));
+  return {recorded, from, flow.size(), {}};
+}
+
+FlowPart ray_sample_flow() {
+  const auto recorded = std::make_shared<DataFlow>();
+  DataFlow& flow = *recorded;
+  CellSamples<Counting> samples(diagonal_space(flow));
+  samples.begin({input(flow, 0.61F), input(flow, 0.53F), input(flow, 0.59F)});
+  const std::size_t from = flow.size();
+  samples.next();
+  static_cast<void>(samples.done());
+  glm::vec<3, CountingIndex> cell;
+  static_cast<void>(samples.find_cell(cell));
   return {recorded, from, flow.size(), {}};
 }
 
@@ -147,6 +189,17 @@ Datapath cell_step_pipeline(const PaperVsuConfig& config, const OperationLatenci
   Datapath block = ray_step_pipeline(config, latencies);
   if (block.interval_cycles() > 1) return block;
   return pipeline("ray_step", ray_step_flow(cell_step_case()), config.step_lanes, latencies);
+}
+
+Datapath sampled_ray_pipeline(const PaperVsuConfig& config, const OperationLatencies& latencies) {
+  return pipeline("sampled_ray", sampled_ray_flow(), config.ray_lanes, latencies);
+}
+
+Datapath ray_sample_pipeline(const PaperVsuConfig& config, const OperationLatencies& latencies) {
+  const FlowPart flow = ray_sample_flow();
+  Datapath path = pipeline("ray_sample", flow, folded_macs(flow.counts()), latencies);
+  path.copies = config.samples_per_cycle;
+  return path;
 }
 
 }  // namespace sgs

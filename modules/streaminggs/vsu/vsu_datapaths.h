@@ -54,6 +54,12 @@ FlowPart ray_step_flow(const StepCase& step);
 // but for its focal lengths, whose reciprocals are made once a frame.
 FlowPart pixel_ray_flow();
 
+// A sample of a ray: the next number, its coordinates, the cell, and whether it lies in the box.
+FlowPart ray_sample_flow();
+// Operations of the beginning of a ray that is sampled: its direction from its pixel, the way from
+// sample to sample, and the first and the last sample in the box.
+FlowPart sampled_ray_flow();
+
 // An item a child.
 Datapath chunk_test_pipeline(const ExactVsuConfig& config, const OperationLatencies& latencies);
 // An item a ray; a step of one, out of a block.
@@ -63,5 +69,9 @@ Datapath ray_step_pipeline(const PaperVsuConfig& config, const OperationLatencie
 // thing only, a cell's steps are the first of a block's, and end sooner. Folded lanes would meet
 // two schedules at a time: there both kinds take the block's.
 Datapath cell_step_pipeline(const PaperVsuConfig& config, const OperationLatencies& latencies);
+// Rays that are sampled: an item a ray, and an item a sample, which takes as many lanes as it has
+// multiply-accumulates; a copy of these for each sample of a cycle.
+Datapath sampled_ray_pipeline(const PaperVsuConfig& config, const OperationLatencies& latencies);
+Datapath ray_sample_pipeline(const PaperVsuConfig& config, const OperationLatencies& latencies);
 
 }  // namespace sgs

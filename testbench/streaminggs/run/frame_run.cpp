@@ -43,6 +43,9 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
   fail_child_on_sc_error();
   DramController memory("dram", dram);
   memory.load(0, image.bytes.data(), image.bytes.size());
+  if (const auto& table = job.renaming.contents) {
+    memory.load(job.renaming.records.base, table->data(), table->size());
+  }
   const std::unique_ptr<Machine> machine = design.build("accelerator", job, build);
   check_sram_budget(*machine);
   for (auto& socket : machine->memory) socket.bind(memory.socket);

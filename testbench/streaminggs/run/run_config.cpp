@@ -44,6 +44,7 @@ bool agree(const StorageScheme& scheme, const std::string& key, const Json& said
   for (const StorageSize& size : scheme.sizes()) {
     if (key == size.key && said == 0) return true;
   }
+  if (scheme.has_voxel_rule() && key == "voxel_rule") return true;  // a file holds a size
   return said.is_number_float() ? said.get<float>() == held.get<float>() : said == held;
 }
 

@@ -124,6 +124,28 @@ TEST_CASE("ordering table: what an edge reads and writes") {
   CHECK(table.accesses().ready_read >= met.ready_read + 2 * table.ready_levels());
 }
 
+TEST_CASE("ordering table: edges in lines take no room of it, and a voxel has so many at most") {
+  OrderingTable table(100, 4 * 8, 1);
+  add_chain(table, {1, 2});
+  add_chain(table, {1, 3});
+  CHECK(add_chain(table, {1, 2}));
+  CHECK_FALSE(table.added_edge());
+  CHECK(table.bytes() == 3 * 8);
+  CHECK(table.out_degree(0) == 2);
+  CHECK(table.destinations(0) == Voxels{1, 2});
+  CHECK(add_chain(table, {1, 4}));
+  CHECK(table.added_edge());
+  CHECK_FALSE(add_chain(table, {5}));  // a fifth voxel
+
+  OrderingTable wide(100, OrderingTable::kUnlimited, 1);
+  for (std::uint32_t to = 1; to <= kMostAdjacencyLines; ++to) CHECK(add_chain(wide, {0, to}));
+  CHECK_FALSE(add_chain(wide, {0, kMostAdjacencyLines + 1}));
+  wide.clear();
+  CHECK(add_chain(wide, {0, 1}));
+  CHECK(wide.order() == Voxels{0, 1});
+  CHECK(wide.accesses().writes > 0);
+}
+
 TEST_CASE("ordering table: every voxel of a full renaming is found") {
   std::mt19937 random(3);
   for (const std::uint64_t voxels : {1, 2, 5, 96, 512, 3000}) {

@@ -231,6 +231,9 @@ TEST_CASE("storage choices: voxels by the scene's extent, chunks by a row of mem
   const Choice<double> real = choose_voxel_size(cloud);
   CHECK(real.value == 2);
   CHECK_THAT(real.why, Contains("real") && Contains("within 10.2") && Contains("more than 10"));
+  // As it is said, whatever the extent.
+  CHECK(choose_voxel_size(cloud, VoxelRule::kSynthetic).value == 0.4);
+  CHECK(choose_voxel_size(cut_object(10, 0), VoxelRule::kReal).value == 2);
 
   for (const auto& [run_bytes, gaussians] : {std::pair<std::uint32_t, std::uint32_t>{256, 16},
                                              {4096, 64},

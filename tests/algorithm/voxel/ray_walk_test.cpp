@@ -4,10 +4,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+#include <set>
 #include <string>
 
+#include "algorithm/voxel/cell_samples.h"
 #include "algorithm/voxel/ray_path.h"
 #include "algorithm/voxel/ray_sampling.h"
+#include "algorithm/voxel/renaming_table.h"
 #include "tests/algorithm/voxel/cell_stepper.h"
 #include "tests/algorithm/voxel/stored_clouds.h"
 #include "tests/support/uniform.h"
@@ -102,6 +105,35 @@ void compare_with_stepping(unsigned seed, float half_side, float voxel_size,
     met += got.size();
   }
   CHECK(met > 0);
+}
+
+constexpr std::uint32_t kNoVoxelThere = ~0U;
+
+// What the renaming table says of a cell.
+std::uint32_t voxel_at(const RenamingTable& table, const glm::ivec3& cell) {
+  const std::uint64_t vid = table.numbers.of(cell);
+  for (std::uint32_t at = table.look_up.first(vid);; at = table.look_up.behind(at)) {
+    const Renamed renamed = table.look_up.read(vid, table.lines[at]);
+    if (renamed.what == Renamed::What::kVoxel) return renamed.voxel;
+    if (renamed.what == Renamed::What::kEmpty) return kNoVoxelThere;
+  }
+}
+
+// The voxels of a ray's samples by the numbers of their cells.
+std::vector<std::uint32_t> by_number(const VoxelGrid& grid, const SampleSpace& space,
+                                     const Ray& ray) {
+  const RenamingTable table = renaming_table(grid, RenamingForm::kHashed);
+  std::vector<std::uint32_t> out;
+  CellSamples<> samples(space);
+  samples.begin(ray.direction);
+  for (; !samples.done(); samples.next()) {
+    glm::ivec3 cell;
+    if (!samples.find_cell(cell)) continue;
+    const std::uint32_t voxel = voxel_at(table, cell);
+    if (voxel == kNoVoxelThere || (!out.empty() && out.back() == voxel)) continue;
+    out.push_back(voxel);
+  }
+  return out;
 }
 
 TEST_CASE("ray walk: the same cells as stepping, dense and sparse grids") {
@@ -255,6 +287,99 @@ TEST_CASE("ray sampling: finds what the walk finds, in its order, and with fine 
   CHECK(100 * by_fine >= 98 * exact);
   CHECK(10 * by_coarse >= 7 * exact);
   CHECK(by_coarse < by_fine);
+}
+
+TEST_CASE("cell samples: with fine steps what the walk finds, and the renaming table the same") {
+  std::mt19937 random(5);
+  std::vector<glm::vec3> means;
+  for (int i = 0; i < 500; ++i) means.push_back(in_cube(random, 10));
+  const ActivatedCloud cloud = cloud_of(means);
+  const VoxelGrid grid = arrange_by_voxels(cloud, 1.0F).table;
+  const GridTable table{grid};
+  const glm::ivec3 cells = occupied_cells(grid);
+  RayWalk walk(RayPath<>(grid.frame), table);
+  std::size_t exact = 0, by_coarse = 0, by_fine = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const glm::vec3 origin = in_cube(random, 20);
+    const Ray ray = ray_from(origin, in_cube(random, 8) - origin);
+    const auto all = traced(walk, ray);
+    exact += all.size();
+    for (const float step : {0.5F, 0.01F}) {
+      const SampleSpace space = sample_space(origin, grid.frame, cells, step);
+      RayWalk sampling(CellSamplePath(grid.frame, space), table);
+      const auto some = traced(sampling, ray);
+      (step == 0.5F ? by_coarse : by_fine) += some.size();
+      // A subsequence.
+      auto at = all.begin();
+      for (const std::uint32_t voxel : some) {
+        at = std::find(at, all.end(), voxel);
+        REQUIRE(at != all.end());
+      }
+      CHECK(by_number(grid, space, ray) == some);
+    }
+  }
+  CHECK(100 * by_fine >= 98 * exact);
+  CHECK(10 * by_coarse >= 7 * exact);
+  CHECK(by_coarse < by_fine);
+}
+
+TEST_CASE("cell samples: the distance from the eye's cell rises from cell to cell") {
+  std::mt19937 random(6);
+  const VoxelFrame frame{0.7F, glm::ivec3(-20), 3};
+  for (int i = 0; i < 300; ++i) {
+    const glm::vec3 eye = in_cube(random, i % 2 == 0 ? 30.0F : 3.0F);
+    glm::vec3 direction = in_cube(random, 1);
+    if (i % 5 == 0) direction[i % 3] = 0;
+    CellSamples<> samples(sample_space(eye, frame, {50, 40, 30}, 0.37F));
+    samples.begin(direction);
+    glm::ivec3 before(-1);
+    std::uint32_t last = 0;
+    for (; !samples.done(); samples.next()) {
+      glm::ivec3 cell;
+      if (!samples.find_cell(cell) || cell == before) continue;
+      const std::uint32_t distance = samples.cells_from_eye(cell);
+      CHECK((before.x < 0 || distance > last));
+      before = cell;
+      last = distance;
+    }
+  }
+  CellSamples<> none(sample_space({0, 0, 0}, frame, {50, 40, 30}, 0.5F));
+  none.begin({0, 0, 0});
+  CHECK(none.done());
+}
+
+TEST_CASE("renaming table: every voxel and no empty cell, in either form") {
+  std::mt19937 random(8);
+  std::vector<glm::vec3> means;
+  for (int i = 0; i < 3000; ++i) means.push_back(in_cube(random, 12));
+  const VoxelGrid grid = arrange_by_voxels(cloud_of(means), 1.0F).table;
+  const glm::ivec3 cells = occupied_cells(grid);
+  std::vector<std::uint32_t> of_form[2];
+  for (const RenamingForm form : {RenamingForm::kHashed, RenamingForm::kDense}) {
+    const RenamingTable table = renaming_table(grid, form);
+    std::vector<std::uint32_t>& found = of_form[form == RenamingForm::kDense ? 1 : 0];
+    for (int z = 0; z < cells.z; ++z) {
+      for (int y = 0; y < cells.y; ++y) {
+        for (int x = 0; x < cells.x; ++x) found.push_back(voxel_at(table, {x, y, z}));
+      }
+    }
+    std::set<std::uint32_t> voxels(found.begin(), found.end());
+    voxels.erase(kNoVoxelThere);
+    CHECK(voxels.size() == grid.voxels.size());
+    CHECK(*voxels.rbegin() == grid.voxels.size() - 1);
+  }
+  CHECK(of_form[0] == of_form[1]);
+}
+
+TEST_CASE("renaming table: a box with too many cells is refused by its form") {
+  const ActivatedCloud cloud = cloud_of({{0.5F, 0.5F, 0.5F}, {300.5F, 300.5F, 300.5F}});
+  const VoxelGrid grid = arrange_by_voxels(cloud, 1.0F).table;  // 9 bits an axis
+  CHECK(renaming_table(grid, RenamingForm::kHashed).lines.size() == 1);
+  CHECK_THROWS_WITH(renaming_table(grid, RenamingForm::kDense),
+                    Catch::Contains("27 bits, expected at most 24, or hashed"));
+  const VoxelGrid fine = arrange_by_voxels(cloud, 0.001F).table;
+  CHECK_THROWS_WITH(renaming_table(fine, RenamingForm::kHashed),
+                    Catch::Contains("57 bits, expected at most 40"));
 }
 
 TEST_CASE("pixel ray: through the middle of the frame along the camera's z axis") {

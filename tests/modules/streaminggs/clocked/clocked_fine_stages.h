@@ -21,6 +21,7 @@ struct FineHardware {
   std::uint32_t output_entries = 20;
   bool reports_rejects = false;  // they go on, as kRejectedItem
   PortHardware port = {};
+  std::uint32_t ffus = 1;  // that take tests in turn
 };
 constexpr std::uint64_t kRejectedItem = 1U << 21U;
 
@@ -131,11 +132,15 @@ class ClockedFfu {
     if (!wants_) wants_ = !finished(item.group);
     return *wants_;
   }
-  bool has_turn() const { return now_ % hw_.test_cycles == 0; }
+  bool has_turn() const {
+    const std::uint32_t rounds = (hw_.ffus + hw_.test_cycles - 1) / hw_.test_cycles;
+    return now_ % (std::uint64_t{rounds} * hw_.test_cycles) < hw_.ffus;
+  }
   // A mark passes beside what the lanes do. read_cycles: that an item is being read.
   void begin(const FineItem& item, std::uint32_t read_cycles) {
     if (!item.is_mark) {
-      lanes_free_in_ = hw_.test_cycles < read_cycles ? read_cycles : hw_.test_cycles;
+      const std::uint32_t lanes = hw_.ffus > 1 ? 1 : hw_.test_cycles;
+      lanes_free_in_ = lanes < read_cycles ? read_cycles : lanes;
     }
     in_test_.push_back({hw_.depth_cycles + 1, item.what, item.passes});
     if (!item.is_mark) wants_.reset();

@@ -35,6 +35,7 @@ class ClockedOrderingTable {
     fits_ = true;
   }
   bool fits() const { return fits_; }
+  void begin_cycle() {}  // it has no port
 
   // The first read is of this cycle. from: the voxel that the ray met before.
   void begin_add(Chain from, std::uint32_t voxel) {

@@ -16,6 +16,7 @@
 #include "algorithm/voxel/voxel_cuts.h"
 #include "tests/modules/clocked/clocked_fifo.h"
 #include "tests/modules/streaminggs/clocked/clocked_rays.h"
+#include "tests/modules/streaminggs/clocked/clocked_sampling.h"
 
 namespace sgs::test {
 
@@ -28,27 +29,31 @@ struct PaperVsuHardware {
   std::uint32_t visit_gaussians = 256, min_share = 16;
 };
 
+// What is handed out.
+constexpr std::uint64_t kEndOfGroup = std::numeric_limits<std::uint64_t>::max();
+inline std::uint64_t what_of(std::uint32_t first, std::uint32_t count) {
+  return std::uint64_t{first} << 32U | count;
+}
+
+// Rays, Table: how rays are followed, and what takes their voxels.
+template <class Rays, class Table>
 class ClockedPaperVsu {
  public:
-  // All of these outlive it.
+  // All but the rays and the table outlive it.
   ClockedPaperVsu(const PaperVsuHardware& hardware, const View<float>& view, const VoxelGrid& grid,
-                  const VoxelTableLayout& layout, const std::vector<PixelRect>& groups)
+                  const VoxelTableLayout& layout, const std::vector<PixelRect>& groups,
+                  const Rays& rays, const Table& table)
       : hw_(hardware),
         eye_(view.position),
         grid_(grid),
         layout_(layout),
         groups_(groups),
-        rays_(hw_.rays, view, grid, layout.nodes),
+        rays_(rays),
         port_(hw_.rays.port),
-        table_(grid.voxels.size(), hw_.table_bytes, hw_.table_banks),
+        table_(table),
         ordered_(hw_.lists),
         records_(hw_.record_cache_bytes),
         cuts_(hw_.cut_cache_bytes) {}
-
-  static std::uint64_t what(std::uint32_t first, std::uint32_t count) {
-    return std::uint64_t{first} << 32U | count;
-  }
-  static constexpr std::uint64_t kEndOfGroup = std::numeric_limits<std::uint64_t>::max();
 
   // shares: one FIFO a fetch. finished: of a group, whether the news has come.
   template <class Finished>
@@ -69,39 +74,40 @@ class ClockedPaperVsu {
     VoxelRecord record;
     int axis;
   };
-  enum class Rays { kBegin, kFollow, kGiveUp, kWithoutPlace, kOrder };
+  enum class Pass { kBegin, kFollow, kGiveUp, kWithoutPlace, kOrder };
   enum class Emit { kIdle, kVoxel, kRecord, kPiece, kCut, kPlane, kVisit, kShares, kEnd };
 
   void traverse() {
-    if (doing_ == Rays::kOrder && !table_.idle()) table_.step();
+    table_.begin_cycle();
+    if (doing_ == Pass::kOrder && !table_.idle()) table_.step();
     if (busy_ > 0 && --busy_ > 0) return;
-    if (doing_ == Rays::kOrder) {
+    if (doing_ == Pass::kOrder) {
       if (!table_.idle()) return;
       list_.voxels = table_.ordered();
       ordered_.put(std::move(list_));
       group_ += window_.last() ? 1 : 0;
       window_ = window_.last() ? VisitWindow() : window_.rest();
-      doing_ = Rays::kBegin;
+      doing_ = Pass::kBegin;
     }
     if (group_ == groups_.size()) return;
-    if (doing_ == Rays::kBegin) {
+    if (doing_ == Pass::kBegin) {
       table_.clear();
       rays_.begin(groups_[group_], window_);
-      doing_ = Rays::kFollow;
+      doing_ = Pass::kFollow;
     }
-    if (doing_ == Rays::kFollow) {
+    if (doing_ == Pass::kFollow) {
       rays_.step(table_);
       if (!rays_.gives_up() && !rays_.done()) return;
-      doing_ = rays_.gives_up() ? Rays::kGiveUp : Rays::kWithoutPlace;
-    } else if (doing_ == Rays::kGiveUp) {
+      doing_ = rays_.gives_up() ? Pass::kGiveUp : Pass::kWithoutPlace;
+    } else if (doing_ == Pass::kGiveUp) {
       rays_.wait_for_lines();
     }
-    if (doing_ == Rays::kWithoutPlace) {
+    if (doing_ == Pass::kWithoutPlace) {
       if (ordered_.has_room()) order();  // where the list is written
     } else if (!rays_.waits_for_lines()) {
       window_ = rays_.window().nearer_half();
       busy_ = std::max(clearing_cycles(), ReadyVoxels::all_words_for(most_voxels()));
-      doing_ = Rays::kBegin;
+      doing_ = Pass::kBegin;
     }
   }
   std::uint64_t most_voxels() const { return OrderingTable::most_voxels(hw_.table_bytes); }
@@ -109,7 +115,7 @@ class ClockedPaperVsu {
     return Renaming::slots_for(most_voxels()) / hw_.cleared_slots;
   }
   void order() {
-    doing_ = Rays::kOrder;
+    doing_ = Pass::kOrder;
     table_.begin_order();
     list_ = {static_cast<std::uint32_t>(group_), window_.last(), {}};
     busy_ = clearing_cycles();
@@ -212,7 +218,7 @@ class ClockedPaperVsu {
     share_of_.clear();
     for (std::uint32_t at = 0, k = 0; k < fetches; ++k) {
       const std::uint32_t count = std::min(most, record.count - at);
-      share_of_.push_back(what(record.first + at, count));
+      share_of_.push_back(what_of(record.first + at, count));
       at += count;
     }
     first_fetch_ = visit_;
@@ -234,11 +240,11 @@ class ClockedPaperVsu {
   const VoxelGrid& grid_;
   const VoxelTableLayout& layout_;
   const std::vector<PixelRect>& groups_;
-  ClockedRays rays_;
+  Rays rays_;
   ClockedPort port_;  // of records and planes
   ClockedTransfer line_;
-  ClockedOrderingTable table_;
-  Rays doing_ = Rays::kBegin;
+  Table table_;
+  Pass doing_ = Pass::kBegin;
   std::size_t group_ = 0;
   VisitWindow window_;  // of the pass
   std::uint64_t busy_ = 0;

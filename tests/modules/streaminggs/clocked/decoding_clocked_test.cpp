@@ -155,6 +155,10 @@ TEST_CASE("clocked reference: fine filters that decode") {
   far.port.read_latency = 300;
   FineHardware told = fast;
   told.reports_rejects = true;
+  FineHardware three = paper;
+  three.ffus = 3;
+  three.slots = 32;
+  three.output_entries = 64;
   tiny.slots = 1;
   tiny.output_entries = 2;
   CodebookConfig full;
@@ -177,6 +181,7 @@ TEST_CASE("clocked reference: fine filters that decode") {
            DecodingWorkload{"the same, rejects reported", 8, full, 50, {}, told},
            DecodingWorkload{"groups that finish", 4, full, 5, {1, 1, 1, 1, {1500}}, paper},
            DecodingWorkload{"groups that finish, told", 8, full, 50, {1, 1, 1, 1, {300}}, told},
+           DecodingWorkload{"three FFUs each", 4, full, 50, {}, three},
            DecodingWorkload{"one bank", 4, one_bank, 50, {}, fast},
            DecodingWorkload{"3 banks of 4 B", 4, narrow, 50, {}, paper},
            DecodingWorkload{"20 cycles behind the last line", 4, late, 50, {}, fast},

@@ -203,6 +203,13 @@ TEST_CASE("clocked reference: fine filter") {
   tiny.output_entries = 2;
   FineHardware far = exact;
   far.port.read_latency = 300;
+  FineHardware two = paper, nine = exact;
+  two.ffus = 2;
+  two.output_entries = 40;
+  nine.ffus = 9;
+  nine.test_cycles = 6;
+  nine.output_entries = 300;
+  nine.slots = 32;
   for (const FineWorkload& load : {
            FineWorkload{"light", 250, {2, 300}, exact},
            FineWorkload{"heavy", 250, {}, exact},
@@ -216,6 +223,9 @@ TEST_CASE("clocked reference: fine filter") {
            FineWorkload{"as of paper, output stalled", 50, {1, 1, 4, 200}, paper, of_paper},
            FineWorkload{
                "as of paper, groups that finish", 5, {1, 1, 1, 1, {7000}}, paper, of_paper},
+           FineWorkload{"two FFUs", 50, {}, two, of_paper},
+           FineWorkload{"two FFUs, groups that finish", 5, {1, 1, 1, 1, {7000}}, two, of_paper},
+           FineWorkload{"nine FFUs of 6 cycles", 250, {}, nine},
        }) {
     table.workload(load, run_fine, clocked_fine);
   }

@@ -61,6 +61,7 @@ tb::HfuPlan fine_plan(const tb::SceneShape& shape, const FineHardware& hardware,
                       std::uint32_t visit_gaussians, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   tb::HfuPlan plan = tb::hfu_plan_of(tb::random_scene(random, shape));
+  plan.config.ffus = hardware.ffus;
   plan.config.ffu_lanes = 16;
   plan.config.ffu_macs = 16 * hardware.test_cycles;
   plan.config.ffu_depth_cycles = hardware.depth_cycles;

@@ -1,5 +1,6 @@
 // VSU of paper order against its clocked reference.
 #include <catch2/catch.hpp>
+#include <optional>
 
 #include "modules/streaminggs/paper_config.h"
 #include "modules/streaminggs/vsu/paper_vsu.h"
@@ -19,7 +20,23 @@ struct PaperVsuWorkload {
   std::uint32_t entries = kVisitFifoEntries, hfus = 4;
   float voxel_size = 1;
   Finishing finishing = {};
+  std::optional<SamplingHardware> sampling = {};  // of rays that are sampled
 };
+
+void sample(const SamplingHardware& hw, tb::PaperVsuPlan& plan) {
+  PaperVsuConfig& config = plan.config;
+  config.samples_per_cycle = hw.samples;
+  config.sample_step_voxels = static_cast<double>(hw.step_voxels);
+  config.rays_in_flight = hw.rays;
+  config.ray_step_px = hw.ray_step_px;
+  config.ray_lanes = hw.begin_lanes;
+  config.ray_depth_cycles = hw.begin_cycles;
+  config.step_depth_cycles = hw.sample_cycles;
+  config.renaming_bytes = hw.renaming_bytes;
+  config.adjacency_lines = hw.lines;
+  config.adjacency_destinations = hw.destinations;
+  SampledRays::place_tables(config, plan.scene.grid, plan.scene.job);
+}
 
 tb::PaperVsuPlan plan_of(const PaperVsuWorkload& load, std::uint64_t seed) {
   std::mt19937_64 random(seed);
@@ -53,12 +70,12 @@ tb::PaperVsuPlan plan_of(const PaperVsuWorkload& load, std::uint64_t seed) {
   config.cut_cache_bytes = hw.cut_cache_bytes;
   config.visit_gaussians = hw.visit_gaussians;
   config.min_share = hw.min_share;
+  if (load.sampling) sample(*load.sampling, plan);
   return plan;
 }
 
 std::uint64_t what_of_share(const VisitShare& share) {
-  return share.mark == Mark::kEndOfGroup ? ClockedPaperVsu::kEndOfGroup
-                                         : ClockedPaperVsu::what(share.first, share.count);
+  return share.mark == Mark::kEndOfGroup ? kEndOfGroup : test::what_of(share.first, share.count);
 }
 
 Pace pace_of(const PaperVsuWorkload& load, std::uint64_t seed, std::uint32_t hfu) {
@@ -78,6 +95,7 @@ void run_paper_vsu(tb::Case& test, Takings& taken, const PaperVsuWorkload& load,
   const StreamingJob& job = plan.scene.job;
   tb::UnitBench bench(test, bench_of(load.hardware.rays.port, tb::memory_bytes(job)));
   bench.load(0, plan.scene.image.bytes);
+  if (load.sampling) bench.load(job.renaming.records.base, *job.renaming.contents);
   FinishedGroups finished("finished", bench.clock(), job.groups.size(), 1);
   const auto shares = bench.add_fifos<VisitShare>("to_hfu", load.hfus, load.entries, 1);
   PaperVsu unit("vsu", plan.config, bench.context(job));
@@ -92,7 +110,7 @@ void run_paper_vsu(tb::Case& test, Takings& taken, const PaperVsuWorkload& load,
         bench.clock().wait_cycles(pace.gap(of_hfus[h].size()));
         const std::uint64_t what = what_of_share(shares[h]->pop(activity));
         of_hfus[h].push_back({bench.clock().now_cycles(), what});
-        ends += what == ClockedPaperVsu::kEndOfGroup ? 1 : 0;
+        ends += what == kEndOfGroup ? 1 : 0;
       }
     });
   }
@@ -101,11 +119,12 @@ void run_paper_vsu(tb::Case& test, Takings& taken, const PaperVsuWorkload& load,
   taken = joined(of_hfus);
 }
 
-Takings clocked_paper_vsu(const PaperVsuWorkload& load, std::uint64_t seed) {
-  const tb::PaperVsuPlan plan = plan_of(load, seed);
+template <class Rays, class Table>
+Takings clocked_paper_vsu(const PaperVsuWorkload& load, std::uint64_t seed,
+                          const tb::PaperVsuPlan& plan, const Rays& rays, const Table& table) {
   const StreamingJob& job = plan.scene.job;
-  ClockedPaperVsu unit(load.hardware, job.view, plan.scene.grid, job.layout.voxel_table(),
-                       job.groups);
+  ClockedPaperVsu<Rays, Table> unit(load.hardware, job.view, plan.scene.grid,
+                                    job.layout.voxel_table(), job.groups, rays, table);
   std::vector<ClockedFifo<std::uint64_t>> shares(load.hfus,
                                                  ClockedFifo<std::uint64_t>(load.entries));
   std::vector<ClockedSink<std::uint64_t>> sinks;
@@ -114,7 +133,7 @@ Takings clocked_paper_vsu(const PaperVsuWorkload& load, std::uint64_t seed) {
   for (std::uint64_t now = 0; ends < load.hfus * job.groups.size(); ++now) {
     for (std::uint32_t h = 0; h < load.hfus; ++h) {
       sinks[h].step(shares[h], now, [&](std::uint64_t what) {
-        ends += what == ClockedPaperVsu::kEndOfGroup ? 1 : 0;
+        ends += what == kEndOfGroup ? 1 : 0;
         return what;
       });
     }
@@ -124,6 +143,22 @@ Takings clocked_paper_vsu(const PaperVsuWorkload& load, std::uint64_t seed) {
   std::vector<Takings> of_hfus;
   for (const ClockedSink<std::uint64_t>& sink : sinks) of_hfus.push_back(sink.taken());
   return joined(of_hfus);
+}
+
+Takings clocked_paper_vsu(const PaperVsuWorkload& load, std::uint64_t seed) {
+  const tb::PaperVsuPlan plan = plan_of(load, seed);
+  const StreamingJob& job = plan.scene.job;
+  const VoxelGrid& grid = plan.scene.grid;
+  const PaperVsuHardware& hw = load.hardware;
+  if (load.sampling) {
+    return clocked_paper_vsu(
+        load, seed, plan,
+        ClockedSampling(*load.sampling, job.view, grid, job.renaming.records.base),
+        ClockedSampledTable(*load.sampling, hw.rays.port, grid.voxels.size(), hw.table_bytes));
+  }
+  return clocked_paper_vsu(
+      load, seed, plan, ClockedRays(hw.rays, job.view, grid, job.layout.voxel_table().nodes),
+      ClockedOrderingTable(grid.voxels.size(), hw.table_bytes, hw.table_banks));
 }
 
 TEST_CASE("clocked reference: VSU of paper order") {
@@ -172,7 +207,52 @@ TEST_CASE("clocked reference: VSU of paper order") {
            PaperVsuWorkload{"passes, small voxels", 4000, 1, 1, full_and_far, 4, 4, 0.3F},
            PaperVsuWorkload{"groups that finish", 1500, 4, 300, paper, 4, 4, 1, {21000}},
        }) {
-    table.workload(load, run_paper_vsu, clocked_paper_vsu);
+    table.workload(load, run_paper_vsu, [](const PaperVsuWorkload& of, std::uint64_t seed) {
+      return clocked_paper_vsu(of, seed);
+    });
+  }
+}
+
+TEST_CASE("clocked reference: VSU of paper order that samples rays") {
+  Comparison table("VSU that samples, paper order");
+  PaperVsuHardware paper;
+  paper.rays.port = {preset_of<PaperConfig>("paper").port, 20};
+  PaperVsuHardware far = paper;
+  far.rays.port.read_latency = 100;
+  PaperVsuHardware full = far;
+  full.table_bytes = 400;
+  PaperVsuHardware cut = paper;
+  cut.visit_gaussians = 64;
+  SamplingHardware one;
+  one.begin_macs = static_cast<std::uint32_t>(tb::macs_of_a_sampled_beginning());
+  SamplingHardware four = one;
+  four.samples = 4;
+  four.begin_lanes = 32;
+  SamplingHardware few = one;
+  few.rays = 1;
+  few.begin_lanes = 4;
+  few.ray_step_px = 4;
+  SamplingHardware small = one;
+  small.samples = 2;
+  small.renaming_bytes = 256;
+  SamplingHardware narrow = small;
+  narrow.lines = 16;
+  narrow.destinations = 2;
+  for (const PaperVsuWorkload& load : {
+           PaperVsuWorkload{"light: 100 Gaussians", 100, 1, 1, paper, 4, 4, 1, {}, one},
+           PaperVsuWorkload{"heavy: 3000 Gaussians", 3000, 1, 1, paper, 4, 4, 1, {}, one},
+           PaperVsuWorkload{"four samples a cycle", 3000, 1, 1, paper, 4, 4, 0.3F, {}, four},
+           PaperVsuWorkload{"a ray at a time", 1500, 1, 1, paper, 4, 4, 1, {}, few},
+           PaperVsuWorkload{"output stalled", 1500, 4, 300, paper, 4, 4, 1, {}, one},
+           PaperVsuWorkload{"names in DRAM", 3000, 1, 1, far, 4, 4, 0.3F, {}, small},
+           PaperVsuWorkload{"edges in DRAM", 3000, 1, 1, far, 4, 4, 0.3F, {}, narrow},
+           PaperVsuWorkload{"voxels cut", 5000, 1, 1, cut, 4, 4, 2, {}, one},
+           PaperVsuWorkload{"passes: a table of 400 B", 3000, 1, 1, full, 4, 4, 0.5F, {}, small},
+           PaperVsuWorkload{"groups that finish", 1500, 4, 300, paper, 4, 4, 1, {21000}, one},
+       }) {
+    table.workload(load, run_paper_vsu, [](const PaperVsuWorkload& of, std::uint64_t seed) {
+      return clocked_paper_vsu(of, seed);
+    });
   }
 }
 
