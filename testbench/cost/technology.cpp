@@ -24,7 +24,7 @@ void check_stated(const Json& table, const std::string& at, const std::set<std::
     if (place == "sram.points" || key == "source") continue;
     if (value.is_object()) {
       check_stated(value, place, stated, path);
-    } else if (stated.count(place) == 0) {
+    } else if (!value.is_string() && stated.count(place) == 0) {
       throw InputError(fmt::format("{}: {}: got nothing, expected it", path, place));
     }
   }

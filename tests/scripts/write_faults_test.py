@@ -76,7 +76,7 @@ class Refused(InFolder):
         """Where strace may not look, no call is seen."""
         work, words = Work(("w",)), ["sh", "-c", "echo a > a.bin"]
         with mock.patch.object(write_faults.Bench, "most_calls", return_value=0):
-            with self.assertRaisesRegex(write_faults.simulations.Failure, "^job: no trial: strace"):
+            with self.assertRaisesRegex(write_faults.Failure, "^job: no trial: strace"):
                 write_faults.tried("job", work, {"w": words}, 0, print)
 
 
