@@ -336,10 +336,13 @@ TEST_CASE("configuration: what describe lists of report.json is what reports hol
   std::vector<Camera> cameras = open_scene(scene[0]).cameras;
   for (Camera& camera : cameras) camera.principal_offset = {2, 1};
   write_cameras(scratch.path("cameras.json"), cameras);
+  write_ply(scratch.path("scene.ply"), open_scene(scene[0]).cloud);
   std::set<std::string> paths;
   for (const Arguments& run :
        {joined(scene, {"--config", "paper", "--set", "storage.vq.iterations=1"}),
-        joined(scene, {"--config", "exact"}), joined(scene, {"--config", "gscore"}),
+        Arguments{scratch.path("scene.ply"), "--cameras", scratch.path("cameras.json"), "--size",
+                  "64x36", "--scene-axes", "rub"},
+        joined(scene, {"--config", "gscore"}),
         Arguments{packed, "--cameras", scratch.path("cameras.json"), "--size", "64x36"}}) {
     REQUIRE(
         run_streaminggs(joined(joined({"simulate"}, run), {"--out", scratch.path("out")})).status ==
