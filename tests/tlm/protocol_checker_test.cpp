@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "tlm/payload_pool.h"
@@ -16,6 +17,8 @@ struct Ends : sc_core::sc_module {
   tlm_utils::simple_initiator_socket<Ends> initiator{"initiator"};
   tlm_utils::passthrough_target_socket<Ends> target{"target"};
   tlm::tlm_sync_enum answer = tlm::TLM_ACCEPTED;  // of the target to requests
+  std::optional<tlm::tlm_phase> changed;          // what the target makes of their phase
+  tlm::tlm_sync_enum taken = tlm::TLM_ACCEPTED;   // of the initiator to what comes back
 
   explicit Ends(const sc_core::sc_module_name& name) : sc_module(name) {
     initiator.register_nb_transport_bw(this, &Ends::nb_transport_bw);
@@ -24,10 +27,11 @@ struct Ends : sc_core::sc_module {
   }
   tlm::tlm_sync_enum nb_transport_bw(tlm::tlm_generic_payload&, tlm::tlm_phase&,
                                      sc_core::sc_time&) {
-    return tlm::TLM_ACCEPTED;
+    return taken;
   }
-  tlm::tlm_sync_enum nb_transport_fw(tlm::tlm_generic_payload&, tlm::tlm_phase&,
+  tlm::tlm_sync_enum nb_transport_fw(tlm::tlm_generic_payload&, tlm::tlm_phase& phase,
                                      sc_core::sc_time&) {
+    phase = changed.value_or(phase);
     return answer;
   }
   void b_transport(tlm::tlm_generic_payload&, sc_core::sc_time&) {}
@@ -198,6 +202,18 @@ TEST_CASE("protocol checker: planted breaches") {
          PooledPayload& p = b.make();
          p.set_streaming_width(0);
          b.forward(p, tlm::BEGIN_REQ);
+       }},
+      {"the phase was changed by a call that returned TLM_ACCEPTED",
+       [](Bench& b) {
+         b.ends.changed = tlm::END_REQ;
+         b.forward(b.make(), tlm::BEGIN_REQ);
+       }},
+      {"TLM_COMPLETED returned to a call that was not BEGIN_RESP",
+       [](Bench& b) {
+         PooledPayload& p = b.make();
+         b.forward(p, tlm::BEGIN_REQ);
+         b.ends.taken = tlm::TLM_COMPLETED;
+         b.backward(p, tlm::END_REQ);
        }},
       {"on the forward path", [](Bench& b) { b.forward(b.make(), tlm::END_REQ); }},
       {"on the backward path",
