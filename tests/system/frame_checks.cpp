@@ -227,7 +227,14 @@ void check_bounds(const Json& view) {
                 count(config["merge"]["cycles_per_operation"]) <=
             frame);
     }
-    if (of(unit, "steps") > 0) {
+    if (of(unit, "samples") > 0) {
+      const Json& vsu = config["vsu"];
+      CHECK(ceil_div(of(unit, "samples"), count(vsu["samples_per_cycle"])) <= frame);
+      CHECK(of(unit, "cells_looked_up") <= frame);
+      CHECK(of(unit, "rays") * count(datapath["sampled_ray"]["used"]["macs"]) /
+                count(vsu["ray_lanes"]) <=
+            frame);
+    } else if (of(unit, "steps") > 0) {
       const Json& vsu = config["vsu"];
       const std::uint64_t rays = of(unit, "rays"), steps = of(unit, "steps") - rays;
       CHECK(steps * count(view["datapath"]["ray_step"]["used"]["macs"]) /
