@@ -30,6 +30,14 @@ struct RayOf {
 };
 using Ray = RayOf<float>;
 
+// Along one axis of the world, the direction through a pixel that lies so far to the right of the
+// view's axis and below it, at distance 1.
+template <class T>
+T pixel_direction(const View<T>& view, const T& right, const T& down, int axis) {
+  return right * view.cam_from_world[0][axis] + down * view.cam_from_world[1][axis] +
+         view.cam_from_world[2][axis];
+}
+
 // Direction through the centre of pixel (x, y), whole numbers; world frame.
 template <class T>
 glm::vec<3, T> pixel_direction(const View<T>& view, T x, T y) {
@@ -37,21 +45,22 @@ glm::vec<3, T> pixel_direction(const View<T>& view, T x, T y) {
   const T down = (y - view.centre_y) / view.focal_y;
   glm::vec<3, T> direction;
   for (int axis = 0; axis < 3; ++axis) {
-    direction[axis] = right * view.cam_from_world[0][axis] + down * view.cam_from_world[1][axis] +
-                      view.cam_from_world[2][axis];
+    direction[axis] = pixel_direction(view, right, down, axis);
   }
   return direction;
 }
 
-// Ray in that direction.
+// Ray in that direction. Axis by axis: a lane divides while the next direction is summed.
 template <class T>
 RayOf<T> pixel_ray_of(const View<T>& view, T x, T y) {
+  const T right = (x - view.centre_x) / view.focal_x;
+  const T down = (y - view.centre_y) / view.focal_y;
   RayOf<T> ray{};
   ray.origin = view.position;
-  ray.direction = pixel_direction(view, x, y);
   for (int axis = 0; axis < 3; ++axis) {
-    const T d = ray.direction[axis];
+    const T d = pixel_direction(view, right, down, axis);
     const float sign = value_of(d);
+    ray.direction[axis] = d;
     ray.step[axis] = sign > 0 ? 1 : (sign < 0 ? -1 : 0);
     ray.inverse[axis] = sign == 0 ? T(0.0F) : T(1.0F) / d;
   }
