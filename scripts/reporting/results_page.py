@@ -16,7 +16,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from reporting import tables
 from reporting.charts import details, escaped, table
 from reporting.folder import read_table
-from report import Panel, page
+from reporting.page import Panel, page
 from tables import about_of, facts_of, made_sentence, markdown, table_of
 from runs.files import content_digest, read_bytes, read_json
 

@@ -137,7 +137,7 @@ class Page(WithFrames):
             (most - 0.8 * pictures, "Pictures at 1/4 of their width", 3),
             (most - 0.98 * pictures, "Pictures left out", 0),
         ):
-            with self.subTest(said), mock.patch.object(report, "MOST_BYTES", int(room)):
+            with self.subTest(said), mock.patch("reporting.page.MOST_BYTES", int(room)):
                 page = self.page(folder)
                 self.assertLessEqual(len(page.encode()), room)
                 self.assertEqual(page.count('src="data:image/png'), embedded)
@@ -182,7 +182,7 @@ class Page(WithFrames):
             frame.write_bytes(content)
             self.assertRefused(folder, "view_0/frame.png: got no whole PNG, expected one$")
         frame.write_bytes(png[:24] + b"\x10" + png[25:])
-        with mock.patch.object(report, "MOST_BYTES", 0):
+        with mock.patch("reporting.page.MOST_BYTES", 0):
             self.assertRefused(folder, "view_0/frame.png: got another kind of PNG, expected 8 bits")
 
     def test_what_has_no_end_is_not_read(self):
