@@ -359,6 +359,26 @@ def group_size(results: Results) -> Made:
     return figure, f"What the size of a group costs. From {data.made}"
 
 
+def of_memories(results: Results) -> Made:
+    """A panel for each scene, a line for each memory over its channels."""
+    columns = ("memory", "channels", "scene", "frames/s", "mJ")
+    data = results.table("compare_memories", "results.py compare_memories", columns)
+    figure, all_axes = panels(len(data.different("scene")), width=4.2, height=3.6, across=2)
+    for scene, axes in zip(data.different("scene"), all_axes):
+        for at, memory in enumerate(data.different("memory")):
+            rows = data.where(scene=scene, memory=memory)
+            rate, mj = ([number(row[column]) for row in rows] for column in ("frames/s", "mJ"))
+            axes.plot(rate, mj, label=memory, **line_style(at))
+            for row, *place in zip(rows, rate, mj):
+                text = {"textcoords": "offset points", "fontsize": 7.5}
+                axes.annotate(row["channels"], place, xytext=(4, 3), **text)
+        axes.set_title(f"{scene}: mJ of a frame")
+        axes.set_xlabel("frames a second")
+        from_zero(axes)
+    legend_above(figure, all_axes[0], columns=3)
+    return figure, f"At each point the number of channels. From {data.made}"
+
+
 def headline(results: Results) -> Made:
     """A pair of bars for each machine and its baseline: geometric means over the scenes, a circle
     each."""
@@ -387,6 +407,7 @@ def headline(results: Results) -> Made:
 
 FIGURES = {
     "headline": headline,
+    "compare_memories": of_memories,
     "compare_machines_rates": rates,
     "compare_machines_traffic": traffic,
     "compare_machines_ratios": ratios,

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 import tables
 from runs import run_arguments
 from runs.keeper import swept
-from runs.scenes import find_scenes
+from runs.scenes import REPOSITORY, find_scenes
 from runs.simulations import (
     MB,
     MJ,
@@ -161,6 +161,75 @@ with each encoding of second halves. All of means over the views of a scene. Mak
     ("results.py compare_variants truck playbot platform yard garden park",),
     add_variant_arguments,
     make_compare_variants,
+)
+
+
+MEMSPECS = REPOSITORY / "modules" / "dram" / "memspecs"
+MEMORY_COLUMNS = (
+    Column("memory", "dram.memspec"),
+    Column("channels", "dram.channels"),
+    Column("GB/s", "peak of all channels", "GB/s", ".1f"),
+    SCENE,
+    Column("frames/s", "at the machine's clock, frames alone; mean cycles of the views", "", ".0f"),
+    Column("of peak", "share of the peak that the frame's bus bytes take", "", ".0%"),
+    Column("mJ", "of the frame, with DRAM and its I/O", "mJ", ".2f"),
+    Column("of it DRAM", "energy of the DRAM and its I/O", "mJ", ".2f"),
+    Column("binds", "busiest resource and its share; what holds the frame where it is another"),
+)
+
+
+def memory_row(run: Run, memory: str, channels: int, views: Views) -> tuple:
+    return (
+        *(memory, channels, views[0]["dram"]["peak_gb_s"], run.scene.name),
+        1 / mean(views, lambda v: v["frame"]["time_s"]),
+        mean(views, lambda v: v["dram"]["of_peak"]),
+        *(mean(views, joules) / MJ, mean(views, dram_joules) / MJ),
+        binders(views),
+    )
+
+
+def add_memory_arguments(to: run_arguments.Parser) -> None:
+    run_arguments.add_scenes(to)
+    run_arguments.add_side_by_side(to)
+    run_arguments.add_view(to)
+    run_arguments.add_size(to, "640x360")
+    to.add_argument("--config", default="exact", help="preset or JSON file")
+    to.add_argument("--memspecs", nargs="+", metavar="NAME", help="default: all that are shipped")
+    to.add_argument("--channels", type=int, nargs="+", default=[1, 2, 4], metavar="N", help="of each")
+    run_arguments.add_settings(to, "the configuration")
+
+
+def make_compare_memories(arguments: argparse.Namespace) -> None:
+    run_arguments.check_once("--memspecs", arguments.memspecs or ())
+    run_arguments.check_once("--channels", list(map(str, arguments.channels)))
+    scenes = find_scenes(arguments.scenes, arguments.cameras)
+    memories = arguments.memspecs or sorted(path.stem for path in MEMSPECS.glob("*.json"))
+    asked = list(itertools.product(memories, arguments.channels, scenes))
+    runs = [
+        Run(
+            *(scene, arguments.view, arguments.size, arguments.config),
+            (f"dram.memspec={memory}", f"dram.channels={channels}", *arguments.set),
+        )
+        for memory, channels, scene in asked
+    ]
+    views = [outcome.accepted() for outcome in swept(arguments, "compare_memories", runs)]
+    by = tables.made_of(arguments.streaminggs, (v for of_run in views for v in of_run), scenes)
+    rows = [
+        memory_row(run, memory, channels, of_run)
+        for run, (memory, channels, _), of_run in zip(runs, asked, views)
+    ]
+    about = f"Machine {arguments.config}, {arguments.size} px."
+    tables.write(arguments.out, "compare_memories", by, MEMORY_COLUMNS, rows, about)
+
+
+COMPARE_MEMORIES = Study(
+    "compare_memories",
+    """A machine with every memory: frames a second and energy of a frame over memories and channels.
+Makes compare_memories.
+""",
+    ("results.py compare_memories truck yard",),
+    add_memory_arguments,
+    make_compare_memories,
 )
 
 
