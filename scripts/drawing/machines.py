@@ -5,6 +5,7 @@ else measured."""
 from __future__ import annotations
 
 import math
+import re
 import statistics
 
 from matplotlib.axes import Axes
@@ -12,6 +13,7 @@ from matplotlib.axes import Axes
 from drawing.figure import (
     COLOURS,
     INK,
+    MARKERS,
     ON_PAPER,
     Data,
     Made,
@@ -360,23 +362,28 @@ def group_size(results: Results) -> Made:
 
 
 def of_memories(results: Results) -> Made:
-    """A panel for each scene, a line for each memory over its channels."""
+    """A panel for each scene, a line for each memory over its channels, a colour for its family."""
     columns = ("memory", "channels", "scene", "frames/s", "mJ")
     data = results.table("compare_memories", "results.py compare_memories", columns)
-    figure, all_axes = panels(len(data.different("scene")), width=4.2, height=3.6, across=2)
+    figure, all_axes = panels(len(data.different("scene")), width=4.2, height=3.4, across=2)
+    members: dict[str, list[str]] = {}
+    for memory in data.different("memory"):
+        members.setdefault(re.match(r"[a-z]*\d?", memory)[0], []).append(memory)
     for scene, axes in zip(data.different("scene"), all_axes):
-        for at, memory in enumerate(data.different("memory")):
-            rows = data.where(scene=scene, memory=memory)
-            rate, mj = ([number(row[column]) for row in rows] for column in ("frames/s", "mJ"))
-            axes.plot(rate, mj, label=memory, **line_style(at))
-            for row, *place in zip(rows, rate, mj):
-                text = {"textcoords": "offset points", "fontsize": 7.5}
-                axes.annotate(row["channels"], place, xytext=(4, 3), **text)
+        for number_of, family in enumerate(members.values()):
+            colour = line_style(number_of)["color"]
+            for at, memory in enumerate(family):
+                rows = data.where(scene=scene, memory=memory)
+                rate, mj = ([number(row[column]) for row in rows] for column in ("frames/s", "mJ"))
+                axes.plot(rate, mj, label=memory, **line_style(at) | {"color": colour})
+                sizes = [20 * number(row["channels"]) for row in rows]
+                axes.scatter(rate, mj, sizes, colour, marker=MARKERS[at], zorder=3)
         axes.set_title(f"{scene}: mJ of a frame")
         axes.set_xlabel("frames a second")
         from_zero(axes)
-    legend_above(figure, all_axes[0], columns=3)
-    return figure, f"At each point the number of channels. From {data.made}"
+    legend_above(figure, all_axes[0])
+    channels = ", ".join(data.different("channels"))
+    return figure, f"Larger marks: more channels ({channels}). From {data.made}"
 
 
 def headline(results: Results) -> Made:
