@@ -89,6 +89,7 @@ void print_view(int number, const RasterWork& work, const GpuFrame& frame) {
   fmt::print("view {}: {} of {} Gaussians listed, {} pairs, {:.1f} % of lanes blend\n", number,
              grouped(work.listed), grouped(work.gaussians), grouped(work.pairs),
              100 * used_lanes(work));
+  if (work.blends == 0) fmt::print("view {}: no Gaussian contributes to the picture\n", number);
   fmt::print("  {:<12} {:>9} {:>12} {:>14} {:>9}  {}\n", "stage", "ms", "scene MB",
              "intermediate MB", "pixels MB", "bound by");
   for (const GpuStage& s : frame.stages) {

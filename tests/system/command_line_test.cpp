@@ -199,6 +199,10 @@ TEST_CASE("command line: cameras that see next to nothing are doubted") {
 TEST_CASE("command line: a picture of nothing, and Gaussians that are dropped, are said") {
   const std::string simulate = "$SG simulate a.ply --cameras c --out o ";
   const std::string empty = "view 0: no Gaussian contributes to the picture\n";
+  const std::string nothing = "no Gaussian contributes to the picture\n";
+  // A camera that sees the scene, then one that is turned away from it.
+  const std::string turned =
+      "t=$(sed 's/^.\\(.*\\).$/\\1/; s/-5\\]/5]/' c); sed \"s/.$/, $t]/\" c >p; ";
   const std::string in_report = "&& grep '\"empty\"' o/view_0/report.json";
   for (const OptionRow& row : std::vector<OptionRow>{
            {simulate + in_report, {empty, "\"empty\": true"}, ply_of({})},
@@ -211,6 +215,29 @@ TEST_CASE("command line: a picture of nothing, and Gaussians that are dropped, a
             {"no Gaussian contributes to the picture: there is nothing to change\n"},
             ply_of({"0 0 -9"})},
            {"$SG what-if a.ply --cameras c", {"doubled "}, ply_of({"0 0 0"})},
+           {"sed 's/^\\[\\(.*\\)\\]$/[\\1, \\1]/' c >p; $SG simulate a.ply --cameras p --view all "
+            "--out o",
+            {"\n2 of 2 views hold no Gaussian\n"},
+            ply_of({"0 0 -9"})},
+           {turned + "$SG simulate a.ply --path p --out o --frames 2 && cut -d, -f15 o/path.csv",
+            {"\n1 of 2 frames hold no Gaussian\n", "empty\nfalse\ntrue\n"},
+            ply_of({"0 0 0"})},
+           {turned + "$SG simulate a.ply --path p --out o --frames 2",
+            {"\n2 of 2 frames hold no Gaussian\nevery frame equals its reference picture\n"},
+            ply_of({"0 0 0"}, -9)},
+           {"$SG sweep a.ply --cameras c --axis hfus=2,3 --out r",
+            {"\n2 of 2 frames hold no Gaussian\n"},
+            ply_of({"0 0 -9"})},
+           {"$SG render a.ply --cameras c --out a.png", {nothing}, ply_of({"0 0 -9"})},
+           {"$SG render a.ply --cameras c --out a.png --ordering exact",
+            {"\n" + nothing},
+            ply_of({"0 0 -9"})},
+           {"$SG gpu a.ply --cameras c", {empty}, ply_of({"0 0 -9"})},
+           {"for c in 'sweep --axis hfus=2 --out r' 'render --out a.png' gpu; do $SG ${c%% *} "
+            "a.ply "
+            "--cameras c ${c#${c%% *}}; done >t && ! grep 'no Gaussian' t",
+            {},
+            ply_of({"0 0 0"})},
            {simulate + "--drop-invalid",
             {"dropped invalid: 2 Gaussians, 1 are left\n"},
             ply_of({"nan 0 0", "0 0 0", "0 inf 0"})},

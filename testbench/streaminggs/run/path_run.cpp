@@ -70,6 +70,7 @@ Json line_of(const Json& report) {
   line["binding"] = report["binding"]["unit"];
   line["utilisation"] = report["binding"]["utilisation"];
   line["holds"] = report["binding"]["holds"];
+  line["empty"] = report["image"]["empty"];
   return line;
 }
 
@@ -142,7 +143,7 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
   std::vector<PathFrame> frames;
   ContactSheet sheet(job.frames.size());
   double energy_j = 0, worst_psnr_db = std::numeric_limits<double>::infinity();
-  std::size_t worst_picture = 0;
+  std::size_t worst_picture = 0, empty = 0;
   bool equal = true;
   for (std::size_t i = 0; i < job.frames.size(); ++i) {
     const std::string doubt = doubt_about(job.frames[i], scene.given());
@@ -179,6 +180,7 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
     }
     if (progress) progress->say(fmt::format("{} of {} frames", i + 1, job.frames.size()));
     equal = equal && view.equals_golden;
+    empty += is_empty(view) ? 1 : 0;
     if (view.psnr_db < worst_psnr_db) worst_picture = i;
     worst_psnr_db = std::min(worst_psnr_db, view.psnr_db);
     frames.push_back({view.run.time_s(), view.energy_j.total.middle, idle_w(view)});
@@ -201,6 +203,7 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
   write_image(files.add(out.contact_sheet().string()), sheet.sheet());
   files.commit();
   print(summary, job, energy_j);
+  print_empty(empty, job.frames.size(), "frames");
   if (std::isinf(worst_psnr_db)) {
     fmt::print("every frame equals its reference picture\n");
   } else {
