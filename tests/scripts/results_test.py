@@ -6,6 +6,7 @@ import importlib
 import io
 import json
 import math
+import re
 import shlex
 import subprocess
 import sys
@@ -33,6 +34,9 @@ COLUMNS = (
     Column("PSNR dB", "against the reference picture", "dB", ".1f"),
 )
 ROWS = (("a|b", 0, 12345, 31.25), ("c", 1, 6, math.inf), ("d", 2, None, None))
+
+
+MACHINE_KEYS = "modules/streaminggs/KEYS.md"
 
 
 class Writing(InFolder):
@@ -282,6 +286,15 @@ class Pages(InFolder):
 
     def test_commands_of_this_repository_are_there(self):
         self.assertEqual(list(results.gone(results.TABLES)), [])
+
+    def test_settings_of_this_repository_are_keys(self):
+        """As --set takes them."""
+        keys = re.findall(r"^\| `([\w.]+)`", (REPOSITORY / MACHINE_KEYS).read_text(), re.MULTILINE)
+        keys.append("group")
+        for name in ("smallest_machine", "fair_fight_machines", "fair_fight_front"):
+            for row in tables.read_rows(results.TABLES, name):
+                given = [setting.partition("=")[0] for setting in row["setting"].split()]
+                self.assertLess(set(given), set(keys))
 
     def test_tables_that_are_made_of_tables(self):
         """With what is wrong in these."""
