@@ -225,8 +225,8 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
     setting.scene = prepare(std::move(scene), config, weighing, CodebookCache(arguments.cache));
   }
   print_what_runs(setting);
-  const int status =
-      path ? run_path(*path, setting, out) : run_views(views, setting, out, arguments.drop_invalid);
+  const int status = path ? run_path(*path, setting, out, arguments.drop_invalid)
+                          : run_views(views, setting, out, arguments.drop_invalid);
   print_notes_of_memory(config.dram.memspec, setting.detail);
   return status;
 }

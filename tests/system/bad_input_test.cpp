@@ -77,13 +77,13 @@ TEST_CASE("bad input: what would never end is refused at once") {
            {"$SG simulate $B --path builtin:path --vcd v --out o", 2, {"--vcd", "--path"}},
            {"$SG simulate $B --path builtin:path --frames 0 --out o", 2, {"--frames"}},
            {"$SG simulate $B --frames 3 --out o", 2, {"--frames", "--path"}},
-           {"$SG simulate $S --size 32x18 --path o/path.json --out o",
+           {"$SG simulate $S --size 32x18 --path o/report.json --out o",
             2,
-            {"o/path.json", "is the same file as the input"},
+            {"o/report.json", "is the same file as the input"},
             "mkdir o; c='{\"id\":0,"
             "\"img_name\":\"\",\"width\":9,\"height\":9,\"fx\":9,\"fy\":9,"
             "\"position\":[0,0,-5],\"rotation\":[[1,0,0],[0,1,0],[0,0,1]]}'; "
-            "echo \"[$c,$c]\" >o/path.json"},
+            "echo \"[$c,$c]\" >o/report.json"},
            {"$SG diff pipe pipe", 2, {"pipe", "regular"}, "mkfifo pipe"},
            {"$SG diff a a", 2, {"a/report.json"}, "mkdir a"},
            {"$SG diff a.json a.json", 2, {"a.json"}, "printf '{' >a.json"},

@@ -65,9 +65,17 @@ TEST_CASE("command line: options and their values") {
              "\nchosen: ", "\n  frame_buffer "}},
            {"$SG simulate $B --view 0,1 --out o >t && [ $(wc -l <t) -le 15 ] && cat t",
             {"\nview 1: ", " values chosen by the model: --verbose lists them\n"}},
-           {"$SG simulate $B --path builtin:path --frames 3 --out o >t && [ $(wc -l <t) -le 9 ] && "
+           {"$SG simulate $B --path builtin:path --frames 3 --out o >t && [ $(wc -l <t) -le 10 ] "
+            "&& f=$(sed -n 's/.* worst [0-9]* (frame \\([0-9]\\)).*/\\1/p' t) && "
+            "grep \"^frame $f, the slowest: .* works [0-9]* % of the frame, \" t && "
             "cat t",
-            {"\n3 frames along ", "\nPSNR: worst ", "\nwritten to o\n"}},
+            {"\n3 frames along ", "\nPSNR: worst ", "\narea ", " mm2 at 32 nm; ",
+             " with PHY and controller of lpddr3_1600\n", " values chosen by the model",
+             "\nwritten to o\n"}},
+           {"$SG simulate $B --path builtin:path --frames 3 --out o >t && $SG simulate $B --path "
+            "builtin:path --frames 3 --set dram.channels=8 --out p >t && $SG diff o p",
+            {"A  o/report.json\nB  p/report.json\n\nconfiguration: 1 of ", "\n     2 ",
+             "\nmean of a view "}},
            {"$SG simulate $B --path builtin:path --frames 3 --verbose --out o", {" wall s\n   0 "}},
            {"$SG simulate $B --out o --config gscore_lossless --set clock_mhz=500 && cat "
             "o/report.json",
@@ -241,6 +249,9 @@ TEST_CASE("command line: a picture of nothing, and Gaussians that are dropped, a
            {simulate + "--drop-invalid",
             {"dropped invalid: 2 Gaussians, 1 are left\n"},
             ply_of({"nan 0 0", "0 0 0", "0 inf 0"})},
+           {turned + "$SG simulate a.ply --path p --frames 2 --drop-invalid --out o",
+            {"dropped invalid: 1 Gaussians, 1 are left\n"},
+            ply_of({"nan 0 0", "0 0 0"})},
            {simulate + "--scene-axes rub 2>&1 && cat o/view_0/report.json",
             {"\"axes\": \"rub\"", "note: a.ply: turned from axes rub to right, down, forward\n"},
             ply_of({"0 0 0"})},
