@@ -348,6 +348,8 @@ TEST_CASE("bad input: messages are short, clean and begin with the program") {
            {"$SG describe --memspec lpddr3_1600_4gb --set hfus=8", "excludes --"},
            {"$SG describe --config paper --memspec lpddr3_1600_4gb", "excludes --"},
            {"$SG convert $S", "--out: got none, expected one file to write"},
+           {"$SG what-if $B --out o", "--out: o, expected a name that ends in .json"},
+           {"$SG gpu $B --out o", "--out: o, expected a name that ends in .json"},
            {"$SG convert $S a.ply --out b.ply", "--out: got it and a.ply, expected one file"},
            {"$SG simulate $B --set machine=papre", "; did you mean paper?"},
            {"$SG simulate $B --set hfu=8", "expected an object; did you mean hfus?"},

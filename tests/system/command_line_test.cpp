@@ -222,7 +222,13 @@ TEST_CASE("command line: a picture of nothing, and Gaussians that are dropped, a
            {"$SG what-if a.ply --cameras c > t && [ $(wc -l <t) = 3 ] && cat t",
             {"no Gaussian contributes to the picture: there is nothing to change\n"},
             ply_of({"0 0 -9"})},
-           {"$SG what-if a.ply --cameras c", {"doubled "}, ply_of({"0 0 0"})},
+           {"$SG what-if a.ply --cameras c > t && $SG simulate a.ply --cameras c --out o > s && "
+            "grep \"^nothing .* $(awk '/ yes / {print $NF}' s) mJ \" t && cat t",
+            {"nothing ", "doubled "},
+            ply_of({"0 0 0"})},
+           {"script -qec \"$SG what-if a.ply --cameras c\" /dev/null </dev/null",
+            {"\rview 0: 0 of ", " keys tried, now "},
+            ply_of({"0 0 0"})},
            {"sed 's/^\\[\\(.*\\)\\]$/[\\1, \\1]/' c >p; $SG simulate a.ply --cameras p --view all "
             "--out o",
             {"\n2 of 2 views hold no Gaussian\n"},
