@@ -26,13 +26,11 @@ from runs import run_arguments
 from runs.files import write_text
 from reporting.charts import escaped
 from reporting.folder import (
-    PATH,
     Run,
     Table,
     ViewFiles,
     find_runs,
     find_tables,
-    read_path,
 )
 from reporting.page import Panel, page
 from reporting.sweep import read_sweep
@@ -41,11 +39,13 @@ from reporting.sweep import read_sweep
 def title_of(run: Run, files: ViewFiles, several_runs: bool) -> str:
     view = files.report
     of_run = run.name if several_runs else view["scene"]["name"]
+    if run.path:
+        return f"{of_run}, frame {view['view']}, the slowest"
     return f"{of_run}, view {view['view']}"
 
 
 def panels_of(runs: Sequence[Run], found: Sequence[Table]) -> list[Panel]:
-    views = [(run, files) for run in runs for files in run.views]
+    views = [(run, files) for run in runs for files in run.shown()]
     panels = []
     text = ""
     if len(views) > 1:
@@ -64,25 +64,26 @@ def panels_of(runs: Sequence[Run], found: Sequence[Table]) -> list[Panel]:
     return panels
 
 
-def heading_of_path(path: dict) -> tuple[str, str]:
+def heading_of_path(run: Run) -> tuple[str, str]:
     """Of the frames of `simulate --path`."""
-    summary = path["summary"]
+    summary, first = run.summary, run.views[0].report
     words = (
-        f"{summary['frames']} frames along {path['path']['name']}",
+        f"{summary['frames']} frames along {run.path}",
         f"frames a second: worst {summary['worst_fps']:.0f} (frame {summary['worst_frame']}), "
         f"p99 {summary['p99_fps']:.0f}, median {summary['median_fps']:.0f}",
         f"{summary['late_frames']} late at {summary['frame_rate']:g} a second",
+        *(f"{empty} hold no Gaussian" for empty in [summary["empty_frames"]] if empty),
         f"{summary['energy_a_second_j']:.3g} J a second",
-        f"machine {path['config']['machine']}",
-        f"commit {path['provenance']['commit']}",
+        f"machine {first['config']['machine']}",
+        f"commit {first['provenance']['commit']}",
     )
-    return path["scene"]["name"], " · ".join(words)
+    return first["scene"]["name"], " · ".join(words)
 
 
 def heading(runs: Sequence[Run], found: Sequence[Table], folder: pathlib.Path) -> tuple[str, str]:
     """Title and the line below it."""
-    if not runs and (folder / PATH).exists():
-        return heading_of_path(read_path(folder))
+    if len(runs) == 1 and runs[0].path:
+        return heading_of_path(runs[0])
     if not runs:
         return folder.resolve().name, f"tables: {', '.join(table.name for table in found)}"
     views = [files.report for run in runs for files in run.views]

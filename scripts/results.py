@@ -286,9 +286,20 @@ def out_of_date(tables: pathlib.Path) -> list[str]:
     ]
 
 
+def gone(tables: pathlib.Path) -> Iterator[str]:
+    """Tables whose command names a script or a study that is not there."""
+    known = studies()
+    for name in results_page.names(tables):
+        for call in facts_of(tables, name)["made"]["command"].split("; "):
+            script, *words = [word for word in call.split() if word != "--all"] or [""]
+            there = not script.startswith("scripts/") or (REPOSITORY / script).exists()
+            if not there or (script == "scripts/results.py" and words[0] not in known):
+                yield f"{name}: its command is not there: {call}"
+
+
 def check(tables: pathlib.Path) -> None:
     """Raises ValueError with all that is wrong."""
-    if faults := [*out_of_date(tables), *results_page.faults(tables)]:
+    if faults := [*out_of_date(tables), *gone(tables), *results_page.faults(tables)]:
         raise ValueError("\n  ".join(faults))
 
 

@@ -202,8 +202,8 @@ def swept(
 
 
 def load(folder: str | pathlib.Path) -> list[dict]:
-    """The reports of all views of a result folder, or of those at most three folders below. Raises
-    ValueError where there are none."""
+    """The reports of all views, or frames of a path, of a result folder, or of those at most three
+    folders below. Raises ValueError where there are none."""
     if not pathlib.Path(folder).is_dir():
         raise ValueError(f"{folder}: no folder, expected one with results")
     reports = [files.report for run_of in find_runs(pathlib.Path(folder)) for files in run_of.views]

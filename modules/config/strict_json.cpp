@@ -12,6 +12,7 @@
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_json.h"
 #include "algorithm/files/nearest_name.h"
+#include "modules/config/unknown_key.h"
 
 namespace sgs {
 
@@ -210,10 +211,11 @@ class JsonReader : public ConfigVisitor {
       if (level.known.count(item.key()) > 0) continue;
       const std::string path = level.path.empty() ? item.key() : level.path + "." + item.key();
       const auto nearest = nearest_key(path, paths_);
-      throw InputError(
+      throw UnknownKey(
           fmt::format("{}: {}: unknown key{}{}", origin_of(path), path,
                       then_expected(nearest ? "; did you mean " + paths_[*nearest] + "?" : ""),
-                      level.known.empty() ? "none" : "one of " + join(level.known)));
+                      level.known.empty() ? "none" : "one of " + join(level.known)),
+          path);
     }
   }
 

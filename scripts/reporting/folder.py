@@ -1,5 +1,5 @@
 """What lies in a result folder: views of `streaminggs simulate`, runs below it, tables; and of
-which kind what the page reads of a report.json and path.json has to be."""
+which kind what the page reads of a report.json has to be."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ from reporting import charts
 from runs.files import read_bytes, read_json, read_text
 
 REPORT = "report.json"
-PATH = "path.json"
 DEEPEST = 3  # folders below the one that is named: out/SCENE/CONFIG and one more
 # Pictures of a view by file name: what they show.
 PICTURES = {
@@ -55,11 +54,18 @@ class ViewFiles:
 
 @dataclasses.dataclass(frozen=True)
 class Run:
-    """Views of one `simulate`. name: of its folder, below the one that was named."""
+    """Views of one `simulate`, or frames of its --path. name: of its folder, below the one that was
+    named."""
 
     name: str
     views: tuple[ViewFiles, ...]
     failed: tuple[dict, ...] = ()  # views without a report: `view` and `why`
+    path: str = ""  # name of the camera path; empty: views
+    summary: dict = dataclasses.field(default_factory=dict)  # of a path
+
+    def shown(self) -> tuple[ViewFiles, ...]:
+        """Views with a place of their own: of a path the slowest frame."""
+        return (self.views[self.summary["worst_frame"]],) if self.path else self.views
 
 
 @dataclasses.dataclass(frozen=True)
@@ -122,11 +128,16 @@ def view_files(report: dict, folder: pathlib.Path) -> ViewFiles:
     return ViewFiles(report, found, read_groups(folder / "groups.csv"))
 
 
-def read_path(folder: pathlib.Path) -> dict:
-    """What `simulate --path` says of all frames. Raises ValueError."""
-    report = read_object(folder / PATH)
-    check(folder / PATH, report, PATH_SHAPE)
-    return report
+def path_run(report: dict, folder: pathlib.Path, name: str) -> Run:
+    """With the picture of the slowest frame. Raises ValueError."""
+    views, slowest = report["views"], report["summary"]["worst_frame"]
+    if slowest not in range(len(views)):
+        got = f"got {slowest} of {len(views)} frames"
+        raise ValueError(f"{folder / REPORT}: summary.worst_frame: {got}, expected one of them")
+    picture = folder / "frames" / f"{slowest:04}.png"
+    found = {"frame": read_picture(picture)} if picture.exists() else {}
+    frames = tuple(ViewFiles(of, found if at == slowest else {}, {}) for at, of in enumerate(views))
+    return Run(name, frames, path=report["path"]["name"], summary=report["summary"])
 
 
 def read_run(folder: pathlib.Path, name: str) -> Run | None:
@@ -138,6 +149,9 @@ def read_run(folder: pathlib.Path, name: str) -> Run | None:
             return None
         check(file, report, VIEW)
         return Run(name, (view_files(report, folder),))
+    if "path" in report:
+        check(file, report, FRAMES)
+        return path_run(report, folder, name)
     check(file, report, SEVERAL_VIEWS)
     views = tuple(view_files(view, folder / f"view_{view['view']}") for view in report["views"])
     return Run(name, views, tuple(report.get("failed", ())))
@@ -241,15 +255,13 @@ VIEW = {
     "provenance": {"version": TEXT, "commit": TEXT, "technology": TEXT, "command": TEXT},
 }
 SEVERAL_VIEWS = {"views": [VIEW], "failed?": [{"view": NUMBER, "why": TEXT}]}
-PATH_SHAPE = {
+FRAMES = {
+    "views": [VIEW],
+    "path": {"name": TEXT},
     "summary": numbers(
         *("frames", "worst_fps", "worst_frame", "p99_fps", "median_fps"),
-        *("late_frames", "frame_rate", "energy_a_second_j"),
+        *("late_frames", "empty_frames", "frame_rate", "energy_a_second_j"),
     ),
-    "path": {"name": TEXT},
-    "scene": {"name": TEXT},
-    "config": CONFIG,
-    "provenance": {"commit": TEXT},
 }
 
 

@@ -92,7 +92,10 @@ def readme(folder: pathlib.Path) -> str:
 
 
 def command(folder: pathlib.Path, name: str) -> str:
-    return f"`{facts_of(folder, name)['made']['command'].split(' ')[0]}`"
+    """In short: the program, and of results.py the study."""
+    said = facts_of(folder, name)["made"]["command"]
+    short = re.match(r"(scripts/results\.py (--all )?)?\S+", said)
+    return f"`{short[0]}`" if short else "no command"
 
 
 def html(folder: pathlib.Path) -> str:

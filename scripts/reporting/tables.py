@@ -207,7 +207,7 @@ def labelled(runs: Sequence[Run]) -> list[tuple[str, ViewFiles]]:
             files,
         )
         for run in runs
-        for files in run.views
+        for files in run.shown()
     ]
 
 
@@ -259,7 +259,7 @@ def table_of_views(runs: Sequence[Run]) -> Table:
     )
     rows = []
     for run in runs:
-        for files in run.views:
+        for files in run.shown():
             view = files.report
             frame, energy = view["frame"], view["energy"]
             rows.append(

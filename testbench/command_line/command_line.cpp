@@ -58,11 +58,26 @@ void check_command(const CLI::App& app, int argc, const char* const* argv) {
       then_expected(did_you_mean(word, names)), join(names)));
 }
 
-// What "--hfus 8" or "--hfus=8" may mean where no such option is: a key of --set, or an option that
-// is spelt nearly so.
+// "SCENE" of "--scene", where the command takes such an argument, which has no name before it.
+std::string argument_of(const std::string& bare, const CLI::App& app) {
+  std::string upper = bare;
+  for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  const auto options = app.get_options();
+  const bool there = std::any_of(options.begin(), options.end(), [&](const CLI::Option* option) {
+    return option->get_positional() && option->get_name(true) == upper;
+  });
+  return there ? upper : "";
+}
+
+// What "--hfus 8" or "--hfus=8" may mean where no such option is: an argument without a name, a key
+// of --set, or an option that is spelt nearly so.
 std::string meaning_of_option(const std::string& name, const std::string& value,
                               const CLI::App& app, const std::vector<std::string>& keys) {
   const std::string bare = name.substr(std::min(name.find_first_not_of('-'), name.size()));
+  if (const std::string argument = argument_of(bare, app); !argument.empty()) {
+    return fmt::format("; did you mean {} alone? {} takes no name before it",
+                       value.empty() ? argument : value, argument);
+  }
   std::vector<std::string> options;
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& long_name : option->get_lnames()) options.push_back("--" + long_name);
@@ -220,9 +235,13 @@ bool CommandLine::parse(int argc, const char* const* argv) {
       asked = command->app_.get();
       name += " " + command->name();
     }
-    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    // What is missing may stand behind an option that is not there: --scene=x.ply.
+    const std::vector<std::string> extras = app.remaining(true);
+    const bool missing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr &&
+                         std::any_of(extras.begin(), extras.end(), is_option);
+    if (missing || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
       const bool sets = asked->keys && asked->app->get_option_no_throw("--set") != nullptr;
-      what = refusal_of(app.remaining(true), {argv, argv + argc}, *asked->app,
+      what = refusal_of(extras, {argv, argv + argc}, *asked->app,
                         sets ? asked->keys() : std::vector<std::string>());
     }
     throw InputError(fmt::format("{} ({} --help lists what there is)", what, name));

@@ -9,6 +9,7 @@
 #include "algorithm/files/output_file.h"
 #include "algorithm/splat/activate.h"
 #include "modules/config/strict_json.h"
+#include "testbench/command_line/output_name.h"
 #include "testbench/gpu/gpu_model.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/report/numbers.h"
@@ -89,6 +90,7 @@ void print_view(int number, const RasterWork& work, const GpuFrame& frame) {
   fmt::print("view {}: {} of {} Gaussians listed, {} pairs, {:.1f} % of lanes blend\n", number,
              grouped(work.listed), grouped(work.gaussians), grouped(work.pairs),
              100 * used_lanes(work));
+  if (work.blends == 0) fmt::print("view {}: no Gaussian contributes to the picture\n", number);
   fmt::print("  {:<12} {:>9} {:>12} {:>14} {:>9}  {}\n", "stage", "ms", "scene MB",
              "intermediate MB", "pixels MB", "bound by");
   for (const GpuStage& s : frame.stages) {
@@ -108,6 +110,7 @@ void print_view(int number, const RasterWork& work, const GpuFrame& frame) {
 
 int run(const GpuArguments& arguments) {
   GpuConfig config = arguments.config();
+  if (!arguments.out.empty()) check_output_name(arguments.out, ".json");
   OutputPlan plan;
   arguments.add_inputs_to(plan);
   plan.add_input(arguments.gpu);
@@ -160,7 +163,7 @@ SubCommand add_gpu_command(CommandLine& line, const Kinds&) {
     for (const ConfigOrigin& value : document.origins()) keys.push_back(value.path);
     return keys;
   });
-  line.file("--out", arguments->out, "the same as JSON");
+  line.file("--out", arguments->out, "file to write the same to: .json");
   return [arguments] { return run(*arguments); };
 }
 

@@ -1,6 +1,8 @@
 // streaminggs render SCENE --out FILE
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,6 +45,10 @@ ConfigSource completed(ConfigSource config, const std::string& ordering) {
   return config;
 }
 
+void say_of_contributions(bool any) {
+  if (!any) fmt::print("no Gaussian contributes to the picture\n");
+}
+
 void render_reference_picture(const RenderArguments& arguments) {
   Scene scene;
   ActivatedCloud cloud;
@@ -53,7 +59,10 @@ void render_reference_picture(const RenderArguments& arguments) {
     cloud = activate(scene.cloud);
   }
   const View<float> view = make_view<float>(arguments.camera(scene.cameras));
-  write_image(arguments.out, render_reference(view, cloud).image);
+  const RenderResult drawn = render_reference(view, cloud);
+  write_image(arguments.out, drawn.image);
+  say_of_contributions(std::any_of(drawn.contributors.begin(), drawn.contributors.end(),
+                                   [](std::uint32_t splats) { return splats > 0; }));
 }
 
 // The picture that a machine must give, and what its order loses.
@@ -83,6 +92,7 @@ void render_golden_picture(const RenderArguments& arguments, const Kinds& kinds)
   write_image(arguments.out, golden.image);
   fmt::print("missed {} (group, splat) pairs\nmisordered {} of {} blends\n", golden.missed,
              golden.misordered, golden.blends);
+  say_of_contributions(golden.contributing > 0);
 }
 
 }  // namespace

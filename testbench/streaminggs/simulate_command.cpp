@@ -110,14 +110,19 @@ void check_single(const SimulateArguments& arguments) {
       "--vcd, --timeline, --dram-trace: one file holds one view; expected --view with one number");
 }
 
+// Cameras beside a path have one use: they weigh codebooks that are made.
+void check_cameras_of_path(const SimulateArguments& arguments, SecondHalfEncoding encoding,
+                           bool packed) {
+  const bool weighs = !packed && SecondHalfFormat{encoding, 0, {}}.quantised();
+  if (arguments.path.empty() || arguments.cameras_path.empty() || weighs) return;
+  throw InputError(fmt::format(
+      "--cameras: got {} with --path {}, which says what is drawn, expected one of the two, or "
+      "codebooks to be made, which these cameras weigh",
+      arguments.cameras_path, arguments.path));
+}
+
 // keys: the path's, in their own size.
 PathJob path_job(const SimulateArguments& arguments, std::vector<Camera>& keys) {
-  if (arguments.view != "0") {
-    throw InputError(
-        fmt::format("--view: got {} with --path, whose frames are all drawn, expected "
-                    "one of the two",
-                    arguments.view));
-  }
   CameraPath path = read_camera_path(arguments.path, arguments.scene);
   keys = path.keys;
   NumberedCameras numbered;
@@ -160,6 +165,7 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   RunConfig& config = setting.config;
   config = read_run_config(arguments.config, kinds);
   std::optional<PackedScene> packed = arguments.load_packed();
+  check_cameras_of_path(arguments, config.storage.encoding, packed.has_value());
   std::vector<Camera> keys;
   std::optional<PathJob> path;
   if (!arguments.path.empty()) path = path_job(arguments, keys);
@@ -219,8 +225,8 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
     setting.scene = prepare(std::move(scene), config, weighing, CodebookCache(arguments.cache));
   }
   print_what_runs(setting);
-  const int status =
-      path ? run_path(*path, setting, out) : run_views(views, setting, out, arguments.drop_invalid);
+  const int status = path ? run_path(*path, setting, out, arguments.drop_invalid)
+                          : run_views(views, setting, out, arguments.drop_invalid);
   print_notes_of_memory(config.dram.memspec, setting.detail);
   return status;
 }
@@ -253,6 +259,7 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   line.real("--frame-rate", arguments->frame_rate, 1e-3, 1e6,
             "frames a second at which the path's energy a second is told; if not given 90, or as "
             "nerfstudio's states");
+  line.excludes("--view", "--path");
   line.needs("--frames", "--path");
   line.needs("--frame-rate", "--path");
   line.file("--technology", arguments->technology, "table of energy and area");

@@ -10,6 +10,7 @@ from unittest import mock
 
 from in_folder import COMMAND, InFolder, nightly  # isort: skip (finds the scripts)
 import report
+import streaminggs
 from reporting import charts
 from reporting.folder import find_runs, flat
 from runs import simulations
@@ -103,8 +104,24 @@ class Page(WithFrames):
         done = call(pathlib.Path(COMMAND), words)
         self.assertEqual(done.returncode, 0, done.stderr)
         page = self.page(folder)
-        summary = json.loads((folder / "path.json").read_text())["summary"]
-        self.assertHolds(page, f"worst {summary['worst_fps']:.0f} (frame {summary['worst_frame']})")
+        report_file = folder / "report.json"
+        text = report_file.read_text()
+        whole = json.loads(text)
+        summary = whole["summary"]
+        slowest = summary["worst_frame"]
+        self.assertHolds(page, f"worst {summary['worst_fps']:.0f} (frame {slowest})")
+        self.assertHolds(page, f"frame {slowest}, the slowest")
+        self.assertHolds(page, charts.escaped(whole["views"][slowest]["binding"]["explanation"]))
+        self.assertFalse("hold no Gaussian" in page)
+        summary["empty_frames"] = 1
+        report_file.write_text(json.dumps(whole))
+        self.assertHolds(self.page(folder), "1 hold no Gaussian")
+        (folder / "report.html").unlink()
+        summary["worst_frame"] = 2
+        report_file.write_text(json.dumps(whole))
+        self.assertRefused(folder, "summary.worst_frame: got 2 of 2 frames, expected one of them$")
+        report_file.write_text(text)
+        self.assertEqual(len(streaminggs.load(folder)), 2)
         self.assertHolds(page, "2 frames along the turntable of builtin:object?n=100")
         self.assertHolds(page, "path.csv")
 

@@ -6,6 +6,7 @@ import importlib
 import io
 import json
 import math
+import re
 import shlex
 import subprocess
 import sys
@@ -25,7 +26,7 @@ from studies import found
 from studies.found import SMALLEST_MACHINE
 from tables import Column, Made, Spread
 
-BY = Made("scripts/results.py one truck", ("abc",))
+BY = Made("scripts/results.py one truck", ("abc",), ("0.2.0",))
 COLUMNS = (
     Column("scene", "its name"),
     Column("view", "of a camera", form="d"),
@@ -33,6 +34,9 @@ COLUMNS = (
     Column("PSNR dB", "against the reference picture", "dB", ".1f"),
 )
 ROWS = (("a|b", 0, 12345, 31.25), ("c", 1, 6, math.inf), ("d", 2, None, None))
+
+
+MACHINE_KEYS = "modules/streaminggs/KEYS.md"
 
 
 class Writing(InFolder):
@@ -50,8 +54,12 @@ class Writing(InFolder):
             "| scene | view | cycles | PSNR dB |\n| --- | ---: | ---: | --- |\n"
             "| a\\|b | 0 | 12,345 | 31.2 |\n| c | 1 | 6 | equal |\n| d | 2 |  |  |\n",
         )
-        unnamed = Made("x", ())
-        self.assertTrue(self.written(by=unnamed).startswith("Made by `x`.\n\n"))
+        for by, said in (
+            (Made("x", ()), "Made by `x`."),
+            (Made("x", ("abc",)), "Made by an earlier program, commit abc; `x` makes it now."),
+            (Made("", ("abc",)), "Made by an earlier program, commit abc; no command makes it now."),
+        ):
+            self.assertTrue(self.written(by=by).startswith(f"{said}\n\n"))
         csv = (self.folder / "one.csv").read_text()
         self.assertEqual(
             csv, "scene,view,cycles,PSNR dB\na|b,0,12345,31.25\nc,1,6,inf\nd,2,,\n"
@@ -258,6 +266,35 @@ class Pages(InFolder):
                 self.write_table(name, by)
             with self.subTest(by):
                 self.assertEqual(results_page.faults(self.tables), [f"2 {said}"])
+
+    def test_commands_that_are_not_there(self):
+        script, study = "scripts/timing.py a", "scripts/results.py time a"
+        for command, gone in (
+            ("scripts/explore.py a; scripts/results.py timing a", ()),
+            ("scripts/results.py --all timing", ()),
+            ("streaminggs simulate SCENE", ()),
+            ("", ()),
+            (script, (script,)),
+            (f"scripts/results.py timing; {study}; {script}", (study, script)),
+            ("scripts/results.py --all time", ("scripts/results.py --all time",)),
+        ):
+            self.write_table("one", Made(command, ("abc",), ("0.2.0",)))
+            expected = [f"one: its command is not there: {call}" for call in gone]
+            with self.subTest(command):
+                self.assertEqual(list(results.gone(self.tables)), expected)
+        self.assertIn(expected[0], self.ended(results, "--check", "--tables", str(self.tables))[1])
+
+    def test_commands_of_this_repository_are_there(self):
+        self.assertEqual(list(results.gone(results.TABLES)), [])
+
+    def test_settings_of_this_repository_are_keys(self):
+        """As --set takes them."""
+        keys = re.findall(r"^\| `([\w.]+)`", (REPOSITORY / MACHINE_KEYS).read_text(), re.MULTILINE)
+        keys.append("group")
+        for name in ("smallest_machine", "fair_fight_machines", "fair_fight_front"):
+            for row in tables.read_rows(results.TABLES, name):
+                given = [setting.partition("=")[0] for setting in row["setting"].split()]
+                self.assertLess(set(given), set(keys))
 
     def test_tables_that_are_made_of_tables(self):
         """With what is wrong in these."""

@@ -65,9 +65,17 @@ TEST_CASE("command line: options and their values") {
              "\nchosen: ", "\n  frame_buffer "}},
            {"$SG simulate $B --view 0,1 --out o >t && [ $(wc -l <t) -le 15 ] && cat t",
             {"\nview 1: ", " values chosen by the model: --verbose lists them\n"}},
-           {"$SG simulate $B --path builtin:path --frames 3 --out o >t && [ $(wc -l <t) -le 9 ] && "
+           {"$SG simulate $B --path builtin:path --frames 3 --out o >t && [ $(wc -l <t) -le 10 ] "
+            "&& f=$(sed -n 's/.* worst [0-9]* (frame \\([0-9]\\)).*/\\1/p' t) && "
+            "grep \"^frame $f, the slowest: .* works [0-9]* % of the frame, \" t && "
             "cat t",
-            {"\n3 frames along ", "\nPSNR: worst ", "\nwritten to o\n"}},
+            {"\n3 frames along ", "\nPSNR: worst ", "\narea ", " mm2 at 32 nm; ",
+             " with PHY and controller of lpddr3_1600\n", " values chosen by the model",
+             "\nwritten to o\n"}},
+           {"$SG simulate $B --path builtin:path --frames 3 --out o >t && $SG simulate $B --path "
+            "builtin:path --frames 3 --set dram.channels=8 --out p >t && $SG diff o p",
+            {"A  o/report.json\nB  p/report.json\n\nconfiguration: 1 of ", "\n     2 ",
+             "\nmean of a view "}},
            {"$SG simulate $B --path builtin:path --frames 3 --verbose --out o", {" wall s\n   0 "}},
            {"$SG simulate $B --out o --config gscore_lossless --set clock_mhz=500 && cat "
             "o/report.json",
@@ -199,6 +207,10 @@ TEST_CASE("command line: cameras that see next to nothing are doubted") {
 TEST_CASE("command line: a picture of nothing, and Gaussians that are dropped, are said") {
   const std::string simulate = "$SG simulate a.ply --cameras c --out o ";
   const std::string empty = "view 0: no Gaussian contributes to the picture\n";
+  const std::string nothing = "no Gaussian contributes to the picture\n";
+  // A camera that sees the scene, then one that is turned away from it.
+  const std::string turned =
+      "t=$(sed 's/^.\\(.*\\).$/\\1/; s/-5\\]/5]/' c); sed \"s/.$/, $t]/\" c >p; ";
   const std::string in_report = "&& grep '\"empty\"' o/view_0/report.json";
   for (const OptionRow& row : std::vector<OptionRow>{
            {simulate + in_report, {empty, "\"empty\": true"}, ply_of({})},
@@ -210,10 +222,42 @@ TEST_CASE("command line: a picture of nothing, and Gaussians that are dropped, a
            {"$SG what-if a.ply --cameras c > t && [ $(wc -l <t) = 3 ] && cat t",
             {"no Gaussian contributes to the picture: there is nothing to change\n"},
             ply_of({"0 0 -9"})},
-           {"$SG what-if a.ply --cameras c", {"doubled "}, ply_of({"0 0 0"})},
+           {"$SG what-if a.ply --cameras c > t && $SG simulate a.ply --cameras c --out o > s && "
+            "grep \"^nothing .* $(awk '/ yes / {print $NF}' s) mJ \" t && cat t",
+            {"nothing ", "doubled "},
+            ply_of({"0 0 0"})},
+           {"script -qec \"$SG what-if a.ply --cameras c\" /dev/null </dev/null",
+            {"\rview 0: 0 of ", " keys tried, now "},
+            ply_of({"0 0 0"})},
+           {"sed 's/^\\[\\(.*\\)\\]$/[\\1, \\1]/' c >p; $SG simulate a.ply --cameras p --view all "
+            "--out o",
+            {"\n2 of 2 views hold no Gaussian\n"},
+            ply_of({"0 0 -9"})},
+           {turned + "$SG simulate a.ply --path p --out o --frames 2 && cut -d, -f15 o/path.csv",
+            {"\n1 of 2 frames hold no Gaussian\n", "empty\nfalse\ntrue\n"},
+            ply_of({"0 0 0"})},
+           {turned + "$SG simulate a.ply --path p --out o --frames 2",
+            {"\n2 of 2 frames hold no Gaussian\nevery frame equals its reference picture\n"},
+            ply_of({"0 0 0"}, -9)},
+           {"$SG sweep a.ply --cameras c --axis hfus=2,3 --out r",
+            {"\n2 of 2 frames hold no Gaussian\n"},
+            ply_of({"0 0 -9"})},
+           {"$SG render a.ply --cameras c --out a.png", {nothing}, ply_of({"0 0 -9"})},
+           {"$SG render a.ply --cameras c --out a.png --ordering exact",
+            {"\n" + nothing},
+            ply_of({"0 0 -9"})},
+           {"$SG gpu a.ply --cameras c", {empty}, ply_of({"0 0 -9"})},
+           {"for c in 'sweep --axis hfus=2 --out r' 'render --out a.png' gpu; do $SG ${c%% *} "
+            "a.ply "
+            "--cameras c ${c#${c%% *}}; done >t && ! grep 'no Gaussian' t",
+            {},
+            ply_of({"0 0 0"})},
            {simulate + "--drop-invalid",
             {"dropped invalid: 2 Gaussians, 1 are left\n"},
             ply_of({"nan 0 0", "0 0 0", "0 inf 0"})},
+           {turned + "$SG simulate a.ply --path p --frames 2 --drop-invalid --out o",
+            {"dropped invalid: 1 Gaussians, 1 are left\n"},
+            ply_of({"nan 0 0", "0 0 0"})},
            {simulate + "--scene-axes rub 2>&1 && cat o/view_0/report.json",
             {"\"axes\": \"rub\"", "note: a.ply: turned from axes rub to right, down, forward\n"},
             ply_of({"0 0 0"})},

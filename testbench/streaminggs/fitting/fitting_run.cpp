@@ -117,11 +117,6 @@ void FittingArguments::add_to(CommandLine& line, const char* scene_forms) {
   pictures.add_to(line);
 }
 
-void FittingArguments::check_extension(const char* extension) const {
-  if (std::filesystem::path(out).extension() == extension) return;
-  throw InputError(fmt::format("--out: {}, expected a name that ends in {}", out, extension));
-}
-
 void FittingArguments::add_to(OutputPlan& plan) const {
   plan.add_output(out);
   if (!log.empty()) plan.add_output(log);

@@ -32,8 +32,6 @@ struct FittingArguments {
   GradientRule gradient_rule() const {
     return gradients == "original" ? GradientRule::kOriginal : GradientRule::kDerivative;
   }
-  // Throws InputError where the scene's name does not end so.
-  void check_extension(const char* extension) const;
   // Digest of the files that the fitting reads: the inputs of the plan, but for a checkpoint.
   std::string contents(const OutputPlan& plan) const;
   // The one to go on from, if any. work, contents: what it must have been made by. Throws

@@ -11,6 +11,7 @@
 #include "algorithm/files/output_file.h"
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/train/trainer.h"
+#include "testbench/command_line/output_name.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/fitting/dataset_arguments.h"
 #include "testbench/streaminggs/fitting/fitting_run.h"
@@ -81,7 +82,7 @@ Trainer begun(const std::optional<Checkpoint>& from, const Dataset& dataset,
 }
 
 int run(const TrainArguments& arguments) {
-  arguments.check_extension(".ply");
+  check_output_name(arguments.out, ".ply");
   OutputPlan plan;
   arguments.add_to(plan);
   plan.check();

@@ -6,6 +6,7 @@
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/storage/image_file.h"
+#include "testbench/command_line/output_name.h"
 
 namespace sgs {
 
@@ -66,7 +67,7 @@ void TuneArguments::check() const {
         fmt::format("tune: got {} to tune for, expected one of --boundary, --quantise, --streaming",
                     purposes == 0 ? "nothing" : "several things"));
   }
-  check_extension(quantise ? kImageFileExtension : ".ply");
+  check_output_name(out, quantise ? kImageFileExtension : ".ply");
   if (data.folder.empty()) return;
   const std::pair<const char*, bool> of_cameras[] = {{"--cameras", !cameras_path.empty()},
                                                      {"--size", !size.empty()},

@@ -131,7 +131,7 @@ void visit_image(ReportVisitor& r, const ViewResult& view, bool original_known) 
     original_known ? "scene" : "decoded_scene");
   r("empty", "bool",
     "No Gaussian contributes: the picture is background, and equality says nothing.",
-    golden.contributing == 0);
+    is_empty(view));
   r("psnr_db", "dB",
     "Frame against reference picture, both clamped to 0..1. `null`: infinite, they are equal.",
     finite(view.psnr_db));

@@ -183,20 +183,11 @@ ReportedRun read_reported_run(const std::string& path) {
   ReportedRun run;
   run.path = path;
   if (std::filesystem::is_directory(path, unknown)) {
-    const std::filesystem::path folder(path), of_path = folder / "path.json";
-    run.path = (folder / "report.json").string();
-    if (!std::filesystem::exists(run.path, unknown) && std::filesystem::exists(of_path, unknown)) {
-      run.path = of_path.string();
-    }
+    run.path = (std::filesystem::path(path) / "report.json").string();
   }
   const Json json = read_json(run.path);
   const JsonPlace report(run.path, json);
   check_version(report);
-  if (report.has("summary")) {
-    throw InputError(fmt::format(
-        "{}: got frames of a camera path, expected the report of simulate without --path",
-        run.path));
-  }
   flatten(report.at("config"), "", run.config);
   JsonPlace first = report;
   if (report.has("views")) {

@@ -30,9 +30,8 @@ class ResultFolder {
   Path report() const { return path_ / "report.json"; }
   Path view(int number) const { return path_ / fmt::format("view_{}", number); }
 
-  // Files of a camera path.
+  // Files of a camera path, beside the report.
   Path frame(std::size_t number) const { return frames() / fmt::format("{:04}.png", number); }
-  Path path_report() const { return path_ / "path.json"; }
   Path path_table() const { return path_ / "path.csv"; }
   Path contact_sheet() const { return path_ / "contact_sheet.png"; }
 
@@ -55,7 +54,7 @@ class ResultFolder {
       for (const Path& file : files_of(folder)) add(file);
     }
     for (const Path& file : frame_files()) add(file);
-    for (const Path& file : {path_report(), path_table(), contact_sheet()}) add(file);
+    for (const Path& file : {path_table(), contact_sheet()}) add(file);
     return files;
   }
 

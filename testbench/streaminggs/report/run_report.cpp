@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "algorithm/files/input_json.h"
 #include "testbench/command_line/version.h"
@@ -53,16 +54,39 @@ void visit_run(ReportVisitor& r, const RunFacts& facts, const Json& config,
   });
 }
 
+using Failures = std::vector<std::pair<int, std::string>>;
+
+void visit_summary(ReportVisitor& r, const PathSummary& s) {
+  r("frames", "", "Frames of the path: `views`, in their order.", s.frames);
+  r("worst_fps", "1/s", "Frame rate of the slowest frame.", s.worst_fps);
+  r("worst_frame", "", "Number of that frame, from 0.", s.worst_frame);
+  r("p99_fps", "1/s", "Frame rate that 99 of 100 frames reach.", s.p99_fps);
+  r("median_fps", "1/s", "Frame rate that half of the frames reach.", s.median_fps);
+  r("energy_j", "J", "Energy of all frames.", s.energy_j);
+  r("frame_rate", "1/s", "Frames that are begun in a second: `--frame-rate`.", s.rate);
+  r("late_frames", "", "Frames after which the next one begins late.", s.late);
+  r("empty_frames", "", "Frames to which no Gaussian contributes.", s.empty);
+  r("frames_w", "W", "Energy of frames over the time of all.", s.frames_w);
+  r("idle_w", "W", "Energy between frames over the time of all: leakage, standby and refresh.",
+    s.idle_w);
+  r("energy_a_second_j", "J", "Energy a second: of both.", s.frames_w + s.idle_w);
+}
+
 // The entries of a report of several views.
-void visit_all(ReportVisitor& r, const Json& config,
-               const std::vector<std::pair<int, std::string>>& failed, const Json& views) {
+void visit_all(ReportVisitor& r, const Json& config, const Failures& failed,
+               const std::optional<PathReport>& path, const Json& views) {
   r("schema_version", "", "Version of this layout.", kReportVersion);
   r("config", "", kConfigMeaning, config);
   r.list("failed", failed, [&](const auto& failure) {
     r("view", "", "Number of a view that could not be finished.", failure.first);
     r("why", "", "Why not.", failure.second);
   });
-  r("views", "", "The reports of the views that were finished.", views);
+  r.each(path, [&](const PathReport& of) {
+    r.object("path",
+             [&] { r("name", "", "File of `--path`, or the way of a built-in scene.", of.name); });
+    r.object("summary", [&] { visit_summary(r, of.summary); });
+  });
+  r("views", "", "The reports of the views that were finished, or of the frames of a path.", views);
 }
 
 }  // namespace
@@ -91,10 +115,17 @@ std::shared_ptr<const Json> RunReport::of_view(const ViewResult& view,
 
 void RunReport::add(const Json& view) { content_->views.push_back(view); }
 
-std::string RunReport::text(const std::vector<std::pair<int, std::string>>& failed) const {
+std::string RunReport::text(const Failures& failed) const {
   Json all;
   ReportWriter writer(all);
-  visit_all(writer, content_->config, failed, content_->views);
+  visit_all(writer, content_->config, failed, {}, content_->views);
+  return report_text(all);
+}
+
+std::string RunReport::text(const PathReport& path) const {
+  Json all;
+  ReportWriter writer(all);
+  visit_all(writer, content_->config, {}, path, content_->views);
   return report_text(all);
 }
 
@@ -107,7 +138,7 @@ std::vector<ReportEntry> entries_of_view() {
 
 std::vector<ReportEntry> entries_of_all_views() {
   ReportTeller teller;
-  visit_all(teller, {}, {}, {});
+  visit_all(teller, {}, {}, {}, {});
   return teller.entries();
 }
 

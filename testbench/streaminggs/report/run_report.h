@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "testbench/streaminggs/report/report_entry.h"
+#include "testbench/streaminggs/run/path_summary.h"
 #include "testbench/streaminggs/run/run_config.h"
 #include "testbench/streaminggs/run/view_result.h"
 
@@ -22,6 +23,12 @@ struct RunFacts {
   std::string configuration;          // its name, with how many values are set over it
   std::string command;                // the whole command line
   std::chrono::steady_clock::time_point began;
+};
+
+// Of a camera path, whose frames are the views.
+struct PathReport {
+  std::string name;
+  PathSummary summary;
 };
 
 class RunReport {
@@ -37,6 +44,8 @@ class RunReport {
 
   // The report of all views. failed: those that were not finished, and why.
   std::string text(const std::vector<std::pair<int, std::string>>& failed) const;
+  // The same of the frames of a path.
+  std::string text(const PathReport& path) const;
 
  private:
   struct Content;

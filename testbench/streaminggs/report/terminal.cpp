@@ -62,9 +62,13 @@ void print_table_line(const ViewResult& v, Detail detail) {
 
 void print_bottleneck(const ViewResult& v) {
   fmt::print("view {}: {}\n", v.view, v.binding.sentence());
-  if (v.golden.contributing == 0) {
+  if (is_empty(v)) {
     fmt::print("view {}: no Gaussian contributes to the picture\n", v.view);
   }
+}
+
+void print_empty(std::size_t empty, std::size_t all, const char* what) {
+  if (empty > 0) fmt::print("{} of {} {} hold no Gaussian\n", empty, all, what);
 }
 
 void print_energy(const ViewResult& v) {

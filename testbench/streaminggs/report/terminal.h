@@ -2,6 +2,7 @@
 // lines. Without --verbose it is short.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -15,6 +16,9 @@ void print_table_head(Detail detail);
 void print_table_line(const ViewResult& view, Detail detail);
 
 void print_bottleneck(const ViewResult& view);
+// How many of these views or frames, as `what` calls them, no Gaussian contributes to; nothing
+// where one does to each.
+void print_empty(std::size_t empty, std::size_t all, const char* what);
 // Energy with its band.
 void print_energy(const ViewResult& view);
 // What ties of depth, order, arithmetic and encoding cost, where they cost anything.

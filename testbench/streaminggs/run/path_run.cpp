@@ -1,4 +1,4 @@
-// Frames, their table, and what they come to.
+// Frames, their report and table, and what they come to.
 #include "testbench/streaminggs/run/path_run.h"
 
 #include <fmt/format.h>
@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_json.h"
@@ -55,7 +56,7 @@ double idle_w(const ViewResult& view) {
   return view.run.cycles > 0 ? joules / view.run.time_s() : 0;
 }
 
-// A line of both tables.
+// A line of the table.
 Json line_of(const Json& report) {
   Json line;
   line["frame"] = report["view"];
@@ -70,6 +71,7 @@ Json line_of(const Json& report) {
   line["binding"] = report["binding"]["unit"];
   line["utilisation"] = report["binding"]["utilisation"];
   line["holds"] = report["binding"]["holds"];
+  line["empty"] = report["image"]["empty"];
   return line;
 }
 
@@ -94,56 +96,80 @@ std::string csv_of(const Json& lines) {
   return text;
 }
 
-Json to_json(const PathSummary& s, const PathJob& job, double energy_j) {
-  return {{"frames", job.frames.size()},
-          {"worst_fps", s.worst_fps},
-          {"worst_frame", s.worst_frame},
-          {"p99_fps", s.p99_fps},
-          {"median_fps", s.median_fps},
-          {"energy_j", energy_j},
-          {"frame_rate", job.frame_rate},
-          {"late_frames", s.late},
-          {"frames_w", s.frames_w},
-          {"idle_w", s.idle_w},
-          {"energy_a_second_j", s.frames_w + s.idle_w}};
-}
+// Frames as they are drawn, and what the terminal says of them.
+class DrawnFrames {
+ public:
+  explicit DrawnFrames(const PathJob& job) : job_(job), sheet_(job.frames.size()) {}
 
-void print(const PathSummary& s, const PathJob& job, double energy_j) {
-  fmt::print(
-      "\n{} frames along {}: frames a second worst {:.0f} (frame {}), p99 {:.0f}, median "
-      "{:.0f}\n",
-      job.frames.size(), job.name, s.worst_fps, s.worst_frame, s.p99_fps, s.median_fps);
-  fmt::print("{} mJ a frame; at {} frames a second {} J a second: {} for frames, {} between them\n",
-             rounded(1e3 * energy_j / static_cast<double>(job.frames.size())),
-             rounded(job.frame_rate), rounded(s.frames_w + s.idle_w), rounded(s.frames_w),
-             rounded(s.idle_w));
-  if (s.late > 0) {
-    fmt::print("{} of {} frames take longer than 1/{} s: the next one begins late\n", s.late,
-               job.frames.size(), rounded(job.frame_rate));
+  // of_view: its report.
+  void add(ViewResult view, const Json& of_view) {
+    const std::size_t number = frames_.size();
+    frames_.push_back(
+        {view.run.time_s(), view.energy_j.total.middle, idle_w(view), is_empty(view)});
+    lines_.push_back(line_of(of_view));
+    all_equal_ = all_equal_ && view.equals_golden;
+    if (view.psnr_db < worst_psnr_db_) worst_picture_ = number;
+    worst_psnr_db_ = std::min(worst_psnr_db_, view.psnr_db);
+    if (sheet_.shows(number)) {
+      sheet_.add(view.frame, fmt::format("{} - {:.0f} FPS", number, 1 / view.run.time_s()));
+    }
+    if (!slowest_ || view.run.time_s() > slowest_->run.time_s()) slowest_ = std::move(view);
   }
-}
+
+  PathSummary summary() const { return summarise(frames_, job_.frame_rate); }
+  std::string table() const { return csv_of(lines_); }
+  Image sheet() const { return sheet_.sheet(); }
+  const ViewResult& slowest() const { return *slowest_; }
+  bool all_equal() const { return all_equal_; }
+
+  void print() const {
+    const PathSummary s = summary();
+    fmt::print(
+        "\n{} frames along {}: frames a second worst {:.0f} (frame {}), p99 {:.0f}, median "
+        "{:.0f}\n",
+        s.frames, job_.name, s.worst_fps, s.worst_frame, s.p99_fps, s.median_fps);
+    fmt::print(
+        "{} mJ a frame; at {} frames a second {} J a second: {} for frames, {} between them\n",
+        rounded(1e3 * s.energy_j / static_cast<double>(s.frames)), rounded(s.rate),
+        rounded(s.frames_w + s.idle_w), rounded(s.frames_w), rounded(s.idle_w));
+    if (s.late > 0) {
+      fmt::print("{} of {} frames take longer than 1/{} s: the next one begins late\n", s.late,
+                 s.frames, rounded(s.rate));
+    }
+    fmt::print("frame {}, the slowest: {}\n", s.worst_frame, slowest_->binding.sentence());
+    print_empty(s.empty, s.frames, "frames");
+    if (std::isinf(worst_psnr_db_)) {
+      fmt::print("every frame equals its reference picture\n");
+    } else {
+      fmt::print("PSNR: worst {:.2f} dB (frame {})\n", worst_psnr_db_, worst_picture_);
+    }
+  }
+
+ private:
+  const PathJob& job_;
+  std::vector<PathFrame> frames_;
+  Json lines_ = Json::array();
+  ContactSheet sheet_;
+  std::optional<ViewResult> slowest_;  // the first of several
+  double worst_psnr_db_ = std::numeric_limits<double>::infinity();
+  std::size_t worst_picture_ = 0;
+  bool all_equal_ = true;
+};
 
 }  // namespace
 
 std::vector<std::filesystem::path> files_of_path(const PathJob& job, const ResultFolder& out) {
-  std::vector<std::filesystem::path> files = {out.path_report(), out.path_table(),
-                                              out.contact_sheet()};
+  std::vector<std::filesystem::path> files = {out.path_table(), out.contact_sheet()};
   for (std::size_t i = 0; i < job.frames.size(); ++i) files.push_back(out.frame(i));
   return files;
 }
 
-int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
+int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out, bool dropping) {
   const PreparedScene& scene = setting.scene;
   RunConfig& config = setting.config;
-  const RunReport reports(config, setting.facts);
+  RunReport report(config, setting.facts);
   const std::optional<RunConfig> later =
       with_codebooks(config, scene.stored.image.layout.second_half);
-  Json report, lines = Json::array();
-  std::vector<PathFrame> frames;
-  ContactSheet sheet(job.frames.size());
-  double energy_j = 0, worst_psnr_db = std::numeric_limits<double>::infinity();
-  std::size_t worst_picture = 0;
-  bool equal = true;
   for (std::size_t i = 0; i < job.frames.size(); ++i) {
     const std::string doubt = doubt_about(job.frames[i], scene.given());
     if (doubt.empty()) continue;
@@ -154,6 +180,7 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
   std::optional<ProgressLine> progress;
   if (!all) progress.emplace();
   if (all) print_table_head(setting.detail);
+  DrawnFrames drawn(job);
   for (std::size_t i = 0; i < job.frames.size(); ++i) {
     const RunConfig& machine = i > 0 && later ? *later : config;
     ViewResult view;
@@ -165,12 +192,6 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(fmt::format("frame {} of {}: {}", i, job.name, error.what()));
     }
-    const Json of_view = *reports.of_view(view, scene);
-    if (i == 0) {
-      for (const char* key : {"schema_version", "scene", "config", "chosen", "provenance"}) {
-        report[key] = of_view[key];
-      }
-    }
     write_image(out.frame(i).string(), view.frame);
     if (i == 0) out.keep_only({out.frame(0)});
     if (all) {
@@ -178,37 +199,24 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
       std::fflush(stdout);
     }
     if (progress) progress->say(fmt::format("{} of {} frames", i + 1, job.frames.size()));
-    equal = equal && view.equals_golden;
-    if (view.psnr_db < worst_psnr_db) worst_picture = i;
-    worst_psnr_db = std::min(worst_psnr_db, view.psnr_db);
-    frames.push_back({view.run.time_s(), view.energy_j.total.middle, idle_w(view)});
-    energy_j += view.energy_j.total.middle;
-    lines.push_back(line_of(of_view));
-    lines.back()["camera"] = of_view["camera"];
-    if (sheet.shows(i)) {
-      sheet.add(view.frame, fmt::format("{} - {:.0f} FPS", i, 1 / view.run.time_s()));
-    }
+    const auto of_view = report.of_view(view, scene);
+    report.add(*of_view);
+    drawn.add(std::move(view), *of_view);
   }
   progress.reset();
-  const PathSummary summary = summarise(frames, job.frame_rate);
-  report["path"] = {{"name", job.name}};
-  report["summary"] = to_json(summary, job, energy_j);
-  report["frames"] = lines;
-  for (Json& line : lines) line.erase("camera");
   OutputSet files;
-  files.add(out.path_report().string()).write(report_text(report));
-  files.add(out.path_table().string()).write(csv_of(lines));
-  write_image(files.add(out.contact_sheet().string()), sheet.sheet());
+  files.add(out.report().string()).write(report.text({job.name, drawn.summary()}));
+  files.add(out.path_table().string()).write(drawn.table());
+  write_image(files.add(out.contact_sheet().string()), drawn.sheet());
   files.commit();
-  print(summary, job, energy_j);
-  if (std::isinf(worst_psnr_db)) {
-    fmt::print("every frame equals its reference picture\n");
-  } else {
-    fmt::print("PSNR: worst {:.2f} dB (frame {})\n", worst_psnr_db, worst_picture);
-  }
-  if (!equal) fmt::print("\na frame differs from the streaming renderer's\n");
-  fmt::print("\nwritten to {}\n", out.path_report().parent_path().string());
-  return equal ? 0 : 1;
+  drawn.print();
+  print_scene(scene, config, dropping);
+  print_area(drawn.slowest(), setting.technology.name, setting.detail);
+  if (all) print_lanes(drawn.slowest());
+  print_choices(config.chosen, setting.detail);
+  if (!drawn.all_equal()) fmt::print("\na frame differs from the streaming renderer's\n");
+  fmt::print("\nwritten to {}\n", out.report().parent_path().string());
+  return drawn.all_equal() ? 0 : 1;
 }
 
 }  // namespace sgs

@@ -18,12 +18,13 @@ struct PathJob {
   double frame_rate = 0;       // at which energy a second is told
 };
 
-// Every file that run_path() writes.
+// Every file that run_path() writes, but for the report.
 std::vector<std::filesystem::path> files_of_path(const PathJob& job, const ResultFolder& out);
 
 // Simulates the frames of a path. Files of an earlier run in the folder are removed once the first
 // frame is done. Returns the exit status: 1 where a frame is not the golden renderer's. Throws
-// std::runtime_error, which names the frame, when one cannot be finished.
-int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out);
+// std::runtime_error, which names the frame, when one cannot be finished. dropping: as of
+// run_views().
+int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out, bool dropping);
 
 }  // namespace sgs

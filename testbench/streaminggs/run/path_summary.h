@@ -10,11 +10,15 @@ namespace sgs {
 // leakage, and the memory's standby and refresh. Its clock stands then.
 struct PathFrame {
   double time_s = 0, energy_j = 0, idle_w = 0;
+  bool empty = false;  // no Gaussian contributes
 };
 
 struct PathSummary {
+  std::size_t frames = 0, empty = 0;
   double worst_fps = 0, p99_fps = 0, median_fps = 0;
   std::size_t worst_frame = 0;
+  double energy_j = 0;  // of all frames
+  double rate = 0;      // as given
   // With a frame begun every 1 / rate, or when the one before it is done: those done later, and the
   // joules a second for frames and between them.
   std::size_t late = 0;

@@ -11,6 +11,7 @@
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_json.h"
 #include "algorithm/storage/storage_scheme.h"
+#include "modules/config/unknown_key.h"
 #include "modules/dram/address_mapping.h"
 #include "modules/dram/memspec.h"
 #include "modules/memory_too_small.h"
@@ -129,6 +130,30 @@ void resolve_machine(RunConfig& config) {
   });
 }
 
+// Of one kind of machine, as paths.
+std::vector<std::string> keys_of(const MachineKind& kind, const std::vector<MachineKind>& kinds) {
+  ConfigDocument document;
+  document.add_override(fmt::format("machine={}", kind.name));
+  RunConfig config = read_run_config(document, kinds);
+  document.add_text(to_json(config), "the defaults");
+  std::vector<std::string> keys;
+  for (const ConfigOrigin& value : document.origins()) keys.push_back(value.path);
+  return keys;
+}
+
+// The kinds of machine that have such a key, or a section of that name.
+std::vector<std::string> kinds_with(const std::string& key, const std::vector<MachineKind>& kinds) {
+  std::vector<std::string> names;
+  for (const MachineKind& kind : kinds) {
+    const std::vector<std::string> keys = keys_of(kind, kinds);
+    const auto is_it = [&](const std::string& other) {
+      return other == key || other.rfind(key + ".", 0) == 0;
+    };
+    if (std::any_of(keys.begin(), keys.end(), is_it)) names.emplace_back(kind.name);
+  }
+  return names;
+}
+
 // A file may be of many encodings, as --print-config's are.
 void check_codebook_keys(const RunConfig& config) {
   if (SecondHalfFormat{config.storage.encoding, 0, {}}.quantised()) return;
@@ -190,12 +215,8 @@ void visit(ConfigVisitor& v, RunConfig& c) {
 std::vector<std::string> keys_of(const std::vector<MachineKind>& kinds) {
   std::vector<std::string> keys;
   for (const MachineKind& kind : kinds) {
-    ConfigDocument document;
-    document.add_override(fmt::format("machine={}", kind.name));
-    RunConfig config = read_run_config(document, kinds);
-    document.add_text(to_json(config), "the defaults");
-    for (const ConfigOrigin& value : document.origins()) {
-      if (std::find(keys.begin(), keys.end(), value.path) == keys.end()) keys.push_back(value.path);
+    for (const std::string& key : keys_of(kind, kinds)) {
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
     }
   }
   return keys;
@@ -204,7 +225,14 @@ std::vector<std::string> keys_of(const std::vector<MachineKind>& kinds) {
 RunConfig read_run_config(const ConfigDocument& document, const std::vector<MachineKind>& kinds) {
   RunConfig config;
   config.kinds = &kinds;
-  document.read_into(config);
+  try {
+    document.read_into(config);
+  } catch (const UnknownKey& error) {
+    const std::vector<std::string> others = kinds_with(error.path, kinds);
+    if (others.empty()) throw;
+    throw InputError(fmt::format("{}; it is a key of machine {}, not of {}", error.what(),
+                                 join(others, " and "), config.machine()));
+  }
   config.origins = document.origins();
   return config;
 }

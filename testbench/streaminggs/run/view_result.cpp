@@ -122,7 +122,7 @@ ViewResult view_result(const PreparedScene& scene, const ViewJob& job, Reference
   view.area_totals_mm2 = area_totals(view.run, technology);
   view.memory_interface = memory_interface_of(dram, technology);
   view.binding = find_binding(view.run, view.area_totals_mm2);
-  if (view.golden.contributing == 0) view.binding = without_advice(view.binding);
+  if (is_empty(view)) view.binding = without_advice(view.binding);
   view.energy_j = energy_of(view.run, technology);
   view.area_mm2 = area_of(view.run, technology);
   view.area_by_owner_mm2 = area_by_owner(view.run, technology);

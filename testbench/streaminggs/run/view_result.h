@@ -76,6 +76,9 @@ struct ViewResult : ReferencePictures, JudgedFrame {
   double mean_power_w() const { return run.cycles > 0 ? energy_j.total.middle / run.time_s() : 0; }
 };
 
+// No Gaussian contributes: the picture is background, and equality says nothing.
+inline bool is_empty(const ViewResult& view) { return view.golden.contributing == 0; }
+
 // Makes the result from these and a simulation; `left_out` and `equals_golden` are not filled in.
 // dram: of the simulation.
 ViewResult view_result(const PreparedScene& scene, const ViewJob& job, ReferencePictures pictures,

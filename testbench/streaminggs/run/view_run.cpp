@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <iterator>
@@ -120,6 +121,8 @@ int run_views(const NumberedCameras& views, RunSetting& setting, const ResultFol
   const std::string text = report.text(failed);
   write_whole_file(out.report().string(), text.data(), text.size());
   print_views(results, setting);
+  const auto empty = std::count_if(results.begin(), results.end(), is_empty);
+  if (results.size() > 1) print_empty(static_cast<std::size_t>(empty), results.size(), "views");
   print_scene(setting.scene, setting.config, dropping);
   print_area(results.front(), setting.technology.name, setting.detail);
   if (setting.detail == Detail::kAll) print_lanes(results.front());

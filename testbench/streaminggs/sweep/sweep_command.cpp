@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -50,7 +51,8 @@ class Asked {
   std::vector<std::pair<std::string, PointInWords>> asked_;
 };
 
-void print_end(const SweepCounts& counts, const std::string& first_refusal,
+// empty: those done that no Gaussian contributes to.
+void print_end(const SweepCounts& counts, std::uint64_t empty, const std::string& first_refusal,
                const std::string& out) {
   if (counts.refused > 0) {
     fmt::print("the first of {} refused: {}\n", grouped(counts.refused), first_refusal);
@@ -59,6 +61,9 @@ void print_end(const SweepCounts& counts, const std::string& first_refusal,
       "{} of {} simulations: {} done, {} refused, {} failed; {} of them by an earlier sweep\n",
       grouped(counts.answered()), grouped(counts.asked), grouped(counts.done),
       grouped(counts.refused), grouped(counts.failed), grouped(counts.kept));
+  if (empty > 0) {
+    fmt::print("{} of {} frames hold no Gaussian\n", grouped(empty), grouped(counts.done));
+  }
   fmt::print("results in {}\n", out);
 }
 
@@ -96,6 +101,7 @@ int run(const SweepArguments& arguments, const Kinds& kinds) {
   Sweep sweep(simulations, results, arguments.side_by_side);
   Asked asked;
   std::string first_refusal;
+  std::uint64_t empty = 0;
   const auto planned = [&](const SweepPoint& point) {
     if (interrupt.wished()) throw Stopped();
     std::vector<SweepTask> tasks = plan.tasks_of(point);
@@ -109,6 +115,8 @@ int run(const SweepArguments& arguments, const Kinds& kinds) {
       const SweepTask& task = answer.task;
       fmt::print("{}\n", answer_of(answer.line, task.id, task.words, answer.kept));
       std::fflush(stdout);
+    } else if (answer.status == kPointDone) {
+      empty += holds_no_gaussian(answer.line) ? 1 : 0;
     } else if (answer.status == kPointFailed) {
       fmt::print("{}\n", in_short(answer.line));
     } else if (answer.status == kPointRefused && first_refusal.empty()) {
@@ -134,7 +142,7 @@ int run(const SweepArguments& arguments, const Kinds& kinds) {
   if (complete && counts.refused == counts.asked) {
     throw InputError(fmt::format("all of {} refused; the first: {}", counts.asked, first_refusal));
   }
-  print_end(counts, first_refusal, arguments.out);
+  print_end(counts, empty, first_refusal, arguments.out);
   if (!complete) return kInterrupted;
   return counts.failed > 0 ? kFailed : kDone;
 }

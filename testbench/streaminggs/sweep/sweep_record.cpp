@@ -103,6 +103,11 @@ std::string answer_of(const std::string& line, const std::string& id, const Poin
   return text_of(answer);
 }
 
+bool holds_no_gaussian(const std::string& line) {
+  const Json result = Json::parse(line);
+  return result["status"] == kPointDone && result["report"]["image"]["empty"] == true;
+}
+
 std::string in_short(const std::string& line) {
   const Json result = Json::parse(line);
   const Json& point = result["point"];

@@ -34,6 +34,9 @@ std::string line_of_failed(const std::string& key, const PointInWords& point,
 std::string answer_of(const std::string& line, const std::string& id, const PointInWords& point,
                       bool kept);
 
+// Whether it is of a frame to which no Gaussian contributes.
+bool holds_no_gaussian(const std::string& line);
+
 // A line for people about a refused or failed point: which one, and why.
 std::string in_short(const std::string& line);
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "algorithm/files/data_files.h"
@@ -13,6 +14,7 @@
 #include "algorithm/files/output_file.h"
 #include "algorithm/memory/frame_buffer.h"
 #include "testbench/command_line/config_source.h"
+#include "testbench/command_line/output_name.h"
 #include "testbench/result/collect.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/report/frame_noise.h"
@@ -20,6 +22,7 @@
 #include "testbench/streaminggs/run/camera_check.h"
 #include "testbench/streaminggs/run/frame_run.h"
 #include "testbench/streaminggs/run/prepared_scene.h"
+#include "testbench/streaminggs/run/progress.h"
 #include "testbench/streaminggs/run/scene_arguments.h"
 #include "testbench/streaminggs/what_if/what_if.h"
 
@@ -93,16 +96,16 @@ double value_at(const Json& document, std::string key) {
 }
 
 void print(const Outcome& base, const std::vector<Doubling>& doublings) {
-  fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>9} {:>9} {:>10} {:>10}   then holds\n",
+  fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>10} {:>9} {:>9} {:>10} {:>10}   then holds\n",
              "doubled", "from", "to", "cycles", "time", "energy", "mm2", "with PHY", "time/mm2",
              "energy/mm2");
-  fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>9.3f} {:>9.3f} {:>10} {:>10}   {}\n",
-             "nothing", "", "", base.cycles, "", "", base.mm2, base.mm2_with_memory_interface, "",
-             "", base.binding.holds);
+  fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>10} {:>9.3f} {:>9.3f} {:>10} {:>10}   {}\n",
+             "nothing", "", "", base.cycles, "", fmt::format("{:.3f} mJ", 1e3 * base.joules),
+             base.mm2, base.mm2_with_memory_interface, "", "", base.binding.holds);
   for (const Doubling& d : doublings) {
     if (!d.refused.empty()) continue;
     const double time = time_saved(base, d.outcome), energy = energy_saved(base, d.outcome);
-    fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>+9.3f} {:>+9.3f} {:>10} {:>10}   {}{}\n",
+    fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>10} {:>+9.3f} {:>+9.3f} {:>10} {:>10}   {}{}\n",
                d.key, d.from, d.to, d.outcome.cycles, change_in_words(time),
                change_in_words(energy), d.outcome.mm2 - base.mm2,
                d.outcome.mm2_with_memory_interface - base.mm2_with_memory_interface,
@@ -167,8 +170,12 @@ Json run_view(const Base& base, int number, const Camera& camera) {
     return to_json(number, outcome, {}, outcome.binding.advice);
   }
   const Json resolved = Json::parse(base.resolved);
+  const std::vector<Remedy> remedies = remedies_of(frame);
   std::vector<Doubling> doublings;
-  for (const Remedy& remedy : remedies_of(frame)) {
+  std::optional<ProgressLine> progress(std::in_place);
+  for (const Remedy& remedy : remedies) {
+    progress->say(fmt::format("view {}: {} of {} keys tried, now {}", number,
+                              &remedy - &remedies[0], remedies.size(), remedy.key));
     Doubling doubling(remedy, value_at(resolved, remedy.key));
     if (doubling.to == doubling.from) continue;  // it is as short as it can be
     try {
@@ -180,6 +187,7 @@ Json run_view(const Base& base, int number, const Camera& camera) {
     }
     doublings.push_back(std::move(doubling));
   }
+  progress.reset();
   rank(outcome, doublings);
   fmt::print("\nview {}: {}\n", number, outcome.binding.sentence());
   print(outcome, doublings);
@@ -192,6 +200,7 @@ Json run_view(const Base& base, int number, const Camera& camera) {
 int run(const WhatIfArguments& arguments, const Kinds& kinds) {
   Base base;
   base.kinds = &kinds;
+  if (!arguments.out.empty()) check_output_name(arguments.out, ".json");
   RunConfig config = read_run_config(arguments.config, kinds);
   const std::string replaced = sizes_to_replace(config, arguments.config.preset_in_words());
   if (!replaced.empty()) fmt::print("{}\n", replaced);
@@ -247,7 +256,7 @@ SubCommand add_what_if_command(CommandLine& line, const Kinds& kinds) {
   arguments->config.add_to(line);
   arguments->config.add_fitting_to(line);
   line.file("--technology", arguments->technology, "table of energy and area");
-  line.file("--out", arguments->out, "write the table as JSON");
+  line.file("--out", arguments->out, "file to write the table to: .json");
   return [arguments, &kinds] { return run(*arguments, kinds); };
 }
 

@@ -2,6 +2,7 @@
 // sheet that shows them.
 #include "testbench/streaminggs/run/camera_path.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <glm/geometric.hpp>
@@ -168,13 +169,19 @@ TEST_CASE("path summary: by table") {
                         {{10, 40, 5}, 25, 25, 100, 1, 1, 9.0 / 80, 0.5 * 25 / 80},
                         {hundred, 50, 100, 100, 7, 0, 3.0 / 20, 0.5 * 990 / 2000}}) {
     std::vector<PathFrame> frames;
-    for (const double ms : row.times_ms) frames.push_back({ms / 1e3, 3e-3, 0.5});
+    for (const double ms : row.times_ms) frames.push_back({ms / 1e3, 3e-3, 0.5, ms > 10});
     const PathSummary s = summarise(frames, 50);
     CHECK(s.worst_fps == Approx(row.worst));
     CHECK(s.p99_fps == Approx(row.p99));
     CHECK(s.median_fps == Approx(row.median));
     CHECK(s.worst_frame == row.worst_frame);
     CHECK(s.late == row.late);
+    CHECK(s.frames == row.times_ms.size());
+    CHECK(s.empty ==
+          static_cast<std::size_t>(std::count_if(row.times_ms.begin(), row.times_ms.end(),
+                                                 [](double ms) { return ms > 10; })));
+    CHECK(s.energy_j == Approx(3e-3 * static_cast<double>(s.frames)));
+    CHECK(s.rate == 50);
     CHECK(s.frames_w == Approx(row.frames_w));
     CHECK(s.idle_w == Approx(row.idle_w));
   }
