@@ -80,6 +80,19 @@ TEST_CASE("memspecs: sizes and peaks") {
   }
 }
 
+// JESD79-5, 4.13: same-bank refreshes of DDR5 come twice as often, with half of the rows each.
+TEST_CASE("memspecs: per-bank refreshes reach all banks as often as all-bank ones") {
+  for (const std::string& name : shipped_memspecs()) {
+    INFO(name);
+    const Memspec m = load_memspec(name);
+    CHECK(m.refreshes_of_set() == (name == "ddr5_4800_16gb" ? 2 : 1));
+    CHECK(m.timing_cycles.refi_bank * m.refresh_sets() * m.refreshes_of_set() ==
+          Approx(m.timing_cycles.refi).epsilon(1e-3));
+  }
+  const std::vector<std::string> none = check_memspec(load_memspec("ddr5_4800_16gb"), "file");
+  CHECK(none.empty());
+}
+
 TEST_CASE("memspecs: each has a rule for heat, which keeps to its own limits") {
   for (const std::string& name : shipped_memspecs()) {
     INFO(name);
