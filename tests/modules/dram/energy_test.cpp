@@ -1,5 +1,6 @@
 // Energy: state residencies and joules against hand calculation from the currents.
 #include <catch2/catch.hpp>
+#include <map>
 #include <numeric>
 #include <string>
 
@@ -125,6 +126,21 @@ TEST_CASE("energy: per-bank refreshes of all rows take what an all-bank refresh 
     const Memspec::Timing& t = m.timing_cycles;
     const std::uint32_t refreshes = (t.refi + t.refi_bank / 2) / t.refi_bank;
     CHECK(of(0, refreshes) == Approx(of(1, 0)));
+  }
+}
+
+TEST_CASE("energy: a bit of whole rows read in sequence takes what is published") {
+  for (const auto& [name, pj] :
+       std::map<std::string, double>{{"hbm2e_3200_16gb", 3.9}, {"hbm3_6400_16gb", 3.9}}) {
+    INFO(name);
+    const Memspec m = load_memspec(name);
+    RankActivity rank;
+    rank.activates = 1;
+    rank.reads = m.bursts_per_row();
+    rank.active_cycles = rank.reads * m.burst_cycles();
+    const DramEnergy energy =
+        dram_energy(m, m.currents.at(m.default_currents), {rank}, {}, m.io_pj_per_bit);
+    CHECK(energy.total_pj() / (8.0 * m.row_bytes()) == Approx(pj).epsilon(0.04));
   }
 }
 
