@@ -66,8 +66,13 @@ SramUse write_queues(const FrameResult& frame, const Technology& technology) {
   return queue;
 }
 
+// Channels of the table's memory that have the peak bandwidth of the frame's.
+double priced_channels(const FrameResult& frame, const Technology& technology) {
+  return frame.memory.peak_gb_s / technology.memory_interface.gb_s;
+}
+
 Band memory_interface_area(const FrameResult& frame, const Technology& technology) {
-  return frame.memory.channels * technology.memory_interface.mm2 +
+  return priced_channels(frame, technology) * technology.memory_interface.mm2 +
          technology.sram.mm2(write_queues(frame, technology));
 }
 
@@ -137,7 +142,7 @@ CostResult energy_of(const FrameResult& frame, const Technology& technology) {
     const SramUse queues = write_queues(frame, technology);
     add(energy, kMemoryInterface,
         kMw * frame.time_s() *
-                (frame.memory.channels * technology.memory_interface.mw +
+                (priced_channels(frame, technology) * technology.memory_interface.mw +
                  technology.sram.leakage_mw(queues)) +
             write_queue_energy_j(frame, queues, technology.sram));
   }
