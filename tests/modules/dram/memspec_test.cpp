@@ -372,6 +372,10 @@ TEST_CASE("memspecs: DRAMSys's other forms, and what has none") {
   CHECK(ddr4.timing_cycles.wtr_l == 16);
   CHECK(ddr4.timing_cycles.rfc_bank == 448);
   CHECK(ddr4.timing_cycles.refi_bank == 6246);
+  // A current without a number is none, and that is said.
+  const Memspec without =
+      load_memspec(with({{"\"idd62\": 0.5e-3", "\"idd62\": 0"}, {"\"vdd2\": 1.1, ", ""}}));
+  CHECK(without.notes.back().find("vdd2_ma.idd6 0, vdd2_v 1") != std::string::npos);
   // HBM counts columns in bursts, has pseudo-channels, and may have no currents.
   const Memspec hbm =
       load_memspec(with({{"LPDDR4", "HBM2"},
