@@ -29,7 +29,7 @@ class SampledRays {
                                                           "vsu.adjacency_lines", "vsu.table_bytes"};
 
   // Adds to the job what it needs: the renaming table of the grid, and a region for edges. Throws
-  // InputError where the grid has too many cells.
+  // InputError where the grid has too many cells, or a ray too many samples.
   static void place_tables(const PaperVsuConfig& config, const VoxelGrid& grid, FrameJob& job);
 
   // activity, port and job outlive it.
