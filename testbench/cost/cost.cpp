@@ -3,6 +3,8 @@
 
 #include <cctype>
 
+#include "modules/dram/dram_config.h"
+
 namespace sgs {
 namespace {
 
@@ -59,9 +61,10 @@ Band clocked_area(const MachineResult& machine, const Technology& technology) {
 
 SramUse write_queues(const FrameResult& frame, const Technology& technology) {
   constexpr std::uint32_t kBurstBits = 256;
+  const std::uint64_t bytes = technology.memory_interface.write_queue_bytes *
+                              frame.memory.write_queue_entries / DramConfig().write_queue_entries;
   SramUse queue =
-      sram_use("waiting writes", "controller",
-               {{technology.memory_interface.write_queue_bytes, "B"}}, {kBurstBits}, kOneOfEach);
+      sram_use("waiting writes", "controller", {{bytes, "B"}}, {kBurstBits}, kOneOfEach);
   queue.count = frame.memory.channels;
   return queue;
 }

@@ -75,7 +75,8 @@ void visit(ConfigVisitor& v, MemoryInterfaceCost& cost) {
   v.section("mm2", cost.mm2, "square millimetres of one channel");
   v.section("mw", cost.mw, "milliwatts of one channel, apart from what moves bits");
   v("write_queue_bytes", cost.write_queue_bytes, in_range(0, 1 << 30),
-    "of writes that wait in the controller of one channel: on-chip memory, beside the above");
+    "of writes that wait in the controller of one channel, at the default of "
+    "dram.write_queue_entries: on-chip memory, beside the above");
   v("source", cost.source, "where the numbers are from, and how sure they are");
 }
 

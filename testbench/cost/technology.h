@@ -31,7 +31,8 @@ struct MemoryInterfaceCost {
   std::string memspec;  // whose they are: how the names of its memspecs begin; empty: not told
   double gb_s = 0;      // peak of that channel
   Band mm2, mw;
-  std::uint64_t write_queue_bytes = 0;  // writes that wait; on-chip memory, beside mm2 and mw
+  // Of writes that wait, by the default of dram.write_queue_entries; on-chip memory, beside these.
+  std::uint64_t write_queue_bytes = 0;
   std::string source;
 };
 

@@ -60,6 +60,7 @@ FrameResult frame() {
   frame.machine.sram_accesses = {{"first halves", 20, 6}};
   frame.memory.energy_j = 1e-6;
   frame.memory.channels = 4;
+  frame.memory.write_queue_entries = 32;
   frame.memory.peak_gb_s = 25.6;
   return frame;
 }
@@ -124,6 +125,9 @@ TEST_CASE("cost: the memory's interface counts where the table says so") {
         Approx(without + 4 * 0.5 + 4 * 65536 * 1e3 * 1e-6));
   CHECK(of(energy_of(writing, technology), "memory_interface").middle ==
         Approx((4 * 17e-3 + 4 * 8 * 7e-3) * 2e-6 + 32 * (1 + 1.5) * 512e-12));
+  writing.memory.write_queue_entries = 96;
+  CHECK(area_of(writing, technology).total.middle ==
+        Approx(without + 4 * 0.5 + 3 * 4 * 65536 * 1e3 * 1e-6));
 }
 
 TEST_CASE("cost: area with and without the memory's interface, whatever the table counts") {
