@@ -65,12 +65,11 @@ void OrderingTable::add_edge(std::uint32_t from, std::uint32_t to, bool is_new) 
   edges_.push_back({to, voxels_[from].first_edge});
   voxels_[from].first_edge = edge_count() - 1;
   added_edge_ = true;
-  ++voxels_[from].out_degree;
+  const std::uint32_t before = voxels_[from].out_degree++;
   full_lines_ = !linked && voxels_[from].out_degree > kMostAdjacencyLines * line_destinations_;
-  if (linked) {
-    write(word_of_edge(edge_count() - 1));
-    write(from);  // the list's head
-  }
+  if (linked) write(word_of_edge(edge_count() - 1));
+  // The list's head, or how many lines it has: known when the next edge from it is met.
+  if (linked || before % line_destinations_ == 0) write(from);
   if (!is_new) write(to);  // the in-degree
   if (voxels_[to].in_degree++ == 0 && !is_new) count_ready(ready_.clear(to));
 }

@@ -132,8 +132,8 @@ class ReadyVoxels {
 };
 
 // Memory that one group's table takes, by count of renamed voxels and of distinct edges: per voxel
-// its global id (4 B), in-degree (2 B) and list head (2 B); per edge the successor and the next
-// link (4 B).
+// its global id (4 B), in-degree (2 B) and list head or number of lines (2 B); per edge the
+// successor and the next link (4 B).
 constexpr std::uint32_t kOrderingBytesPerVoxel = 8;
 constexpr std::uint32_t kOrderingBytesPerEdge = 4;
 

@@ -26,6 +26,7 @@ struct SampleSpaceOf {
 };
 using SampleSpace = SampleSpaceOf<float>;
 
+// Throws InputError where a ray may have more samples than have numbers.
 SampleSpace sample_space(const glm::vec3& eye, const VoxelFrame& frame, const glm::ivec3& cells,
                          float step_voxels);
 

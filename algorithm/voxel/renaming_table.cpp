@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/voxel/cell_samples.h"
@@ -67,6 +68,24 @@ void check_size(const CellNumbers& numbers, std::size_t voxels, RenamingForm for
   }
 }
 
+// Samples are numbered from the eye in single precision. It has twice as many whole numbers in a
+// row, so that none stays the same where one is added.
+void check_numbers(const SampleSpace& space) {
+  constexpr double kMost = 1 << 23;
+  double squares = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double eye = space.eye[axis], box = space.box[axis];
+    const double farthest = std::max(std::abs(eye), std::abs(box - eye));
+    squares += farthest * farthest;
+  }
+  const double cells = std::sqrt(squares);
+  if (cells <= kMost * space.step) return;
+  throw InputError(fmt::format(
+      "vsu.sample_step_voxels: got {:g}, expected at least {:.2g}: the scene reaches {:.3g} voxels "
+      "from the eye, and {} samples have a number",
+      space.step, cells / kMost, cells, kMost));
+}
+
 }  // namespace
 
 glm::ivec3 occupied_cells(const VoxelGrid& grid) {
@@ -86,6 +105,7 @@ SampleSpace sample_space(const glm::vec3& eye, const VoxelFrame& frame, const gl
     space.box[axis] = static_cast<float>(cells[axis]);
   }
   space.step = step_voxels;
+  check_numbers(space);
   return space;
 }
 

@@ -19,7 +19,7 @@ constexpr std::uint64_t next_turn(std::uint64_t now, std::uint64_t interval) {
 }
 
 // The next turn of any of `copies`, whose turns follow each other by a cycle, the first in cycle 0.
-// interval: `copies` or more.
+// As many as the interval has cycles begin an item each cycle; more than these never have a turn.
 constexpr std::uint64_t next_turn_of_one(std::uint64_t now, std::uint64_t interval,
                                          std::uint64_t copies) {
   return now % interval < copies ? now : next_turn(now, interval);

@@ -138,7 +138,7 @@ struct EventEnergy {
     read = cycle * (i.idd4r - i.idd3n) * m.burst_cycles();
     write = cycle * (i.idd4w - i.idd3n) * m.burst_cycles();
     refresh_all = cycle * (i.idd5 - i.idd3n) * t.rfc_all;
-    refresh_bank = refresh_all / m.refresh_sets();
+    refresh_bank = refresh_all / (m.refresh_sets() * m.refreshes_of_set());
   }
   double cycle, activate, read, write, refresh_all, refresh_bank;
 };

@@ -99,7 +99,7 @@ class ActivityMeter {
 
 // The Micron method on two rails: activate-precharge (IDD0 tRC - IDD3N tRAS - IDD2N (tRC - tRAS)),
 // read and write (IDD4 - IDD3N) BL/2, refresh (IDD5 - IDD3N) tRFCab (a per-bank one: by the
-// share of its banks, its own current is not published), standby IDD3N and IDD2N, power-down IDD3P
+// share of its rows, its own current is not published), standby IDD3N and IDD2N, power-down IDD3P
 // and IDD2P, self-refresh IDD6; times voltage and time.
 DramEnergy dram_energy(const Memspec& memspec, const Memspec::Currents& currents,
                        const std::vector<RankActivity>& ranks,

@@ -211,21 +211,27 @@ class Conversion {
 
   void power(std::vector<std::string>& notes) {
     const double devices = std::max<double>(1, number("memarchitecturespec", "nbrOfDevices"));
-    const auto rail = [&](Names CurrentName::*names) {
-      Json ma;
-      for (const CurrentName& current : kCurrents)
-        ma[current.ours] = 1000 * devices * first_of("mempowerspec", current.*names);
-      return ma;
+    Json set;
+    bool any = false;
+    // What is not stated of a rail that has some current costs nothing, or stands at 1 V.
+    const auto take_rail = [&](const char* volts, const Names& theirs, const char* ma,
+                               Names CurrentName::*names) {
+      const double stated_v = first_of("mempowerspec", theirs);
+      set[volts] = stated_v > 0 ? stated_v : 1.0;
+      std::vector<std::string> without;
+      for (const CurrentName& current : kCurrents) {
+        const double ampere = first_of("mempowerspec", current.*names);
+        set[ma][current.ours] = 1000 * devices * ampere;
+        if (ampere == 0) without.push_back(fmt::format("{}.{} 0", ma, current.ours));
+      }
+      if (without.size() == kCurrents.size()) return;
+      any = true;
+      stand_ins_.insert(stand_ins_.end(), without.begin(), without.end());
+      if (stated_v == 0) stand_ins_.push_back(fmt::format("{} 1", volts));
     };
-    const auto volts = [&](const Names& names) {
-      const double stated = first_of("mempowerspec", names);
-      return stated > 0 ? stated : 1.0;
-    };
-    Json set = {{"vdd1_v", volts({"vdd1", "vpp"})},
-                {"vdd2_v", volts({"vdd2", "vdd2h", "vdd"})},
-                {"vdd1_ma", rail(&CurrentName::first)},
-                {"vdd2_ma", rail(&CurrentName::second)}};
-    if (set["vdd2_ma"]["idd0"] == 0)
+    take_rail("vdd1_v", {"vdd1", "vpp"}, "vdd1_ma", &CurrentName::first);
+    take_rail("vdd2_v", {"vdd2", "vdd2h", "vdd"}, "vdd2_ma", &CurrentName::second);
+    if (!any)
       notes.push_back(
           fmt::format("{}: no currents: the memory's energy is that of its I/O alone", origin_));
     if (first_of("mempowerspec", {"idd02l", "idd4r2l", "idd3n2l"}) > 0)

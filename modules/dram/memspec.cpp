@@ -73,7 +73,7 @@ static void visit(ConfigVisitor& v, Memspec::Timing& t) {
   v("refi", t.refi, cycles, "tREFI: interval of all-bank refreshes, more than rfc_all + rcd");
   v("refi_bank", t.refi_bank, cycles,
     "tREFIpb: interval of per-bank refreshes, more than pbr2pbr or rfc_bank; as a rule refi x "
-    "banks_per_refresh / banks");
+    "banks_per_refresh / banks, of DDR5 half of it");
   v("pbr2pbr", t.pbr2pbr, or_zero,
     "tpbR2pbR: per-bank refresh to that of another bank, at most rfc_bank; 0: rfc_bank");
   v("pbr2act", t.pbr2act, or_zero,
@@ -372,11 +372,14 @@ class MemspecCheck {
     if (t.write_latency_a != t.write_latency_b)
       found.push_back(fmt::format("{}: WL is {} (set A) or {} (set B): write_latency_set decides",
                                   m_.name, t.write_latency_a, t.write_latency_b));
-    if (t.refi_bank * m_.refresh_sets() != t.refi)
+    const std::uint32_t rounds = m_.refreshes_of_set(),
+                        all_sets = rounds * t.refi_bank * m_.refresh_sets();
+    if (all_sets != t.refi)
       found.push_back(fmt::format(
-          "{}: refi is {} but refi_bank x {} is {}", m_.name, t.refi,
+          "{}: refi is {} but {}refi_bank x {} is {}", m_.name, t.refi,
+          rounds == 1 ? "" : fmt::format("{} x ", rounds),
           m_.organisation.banks_per_refresh == 1 ? "banks" : "banks / banks_per_refresh",
-          t.refi_bank * m_.refresh_sets()));
+          all_sets));
     return found;
   }
 

@@ -2,6 +2,7 @@
 // One JSON file each under modules/dram/memspecs.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -110,6 +111,11 @@ struct Memspec {
     return organisation.burst_length / organisation.beats_per_clock;
   }
   std::uint32_t refresh_sets() const { return organisation.banks / organisation.banks_per_refresh; }
+  // Per-bank refreshes of a set in the interval of an all-bank one, whose rows they share.
+  std::uint32_t refreshes_of_set() const {
+    const std::uint32_t all_sets = timing_cycles.refi_bank * refresh_sets();
+    return std::max(1U, (timing_cycles.refi + all_sets / 2) / all_sets);
+  }
   std::uint32_t row_bytes() const { return organisation.columns * organisation.width_bits / 8; }
   std::uint32_t bursts_per_row() const { return row_bytes() / burst_bytes(); }
   std::uint64_t rank_bytes() const {

@@ -3,6 +3,8 @@
 
 #include <cctype>
 
+#include "modules/dram/dram_config.h"
+
 namespace sgs {
 namespace {
 
@@ -59,15 +61,21 @@ Band clocked_area(const MachineResult& machine, const Technology& technology) {
 
 SramUse write_queues(const FrameResult& frame, const Technology& technology) {
   constexpr std::uint32_t kBurstBits = 256;
+  const std::uint64_t bytes = technology.memory_interface.write_queue_bytes *
+                              frame.memory.write_queue_entries / DramConfig().write_queue_entries;
   SramUse queue =
-      sram_use("waiting writes", "controller",
-               {{technology.memory_interface.write_queue_bytes, "B"}}, {kBurstBits}, kOneOfEach);
+      sram_use("waiting writes", "controller", {{bytes, "B"}}, {kBurstBits}, kOneOfEach);
   queue.count = frame.memory.channels;
   return queue;
 }
 
+// Channels of the table's memory that have the peak bandwidth of the frame's.
+double priced_channels(const FrameResult& frame, const Technology& technology) {
+  return frame.memory.peak_gb_s / technology.memory_interface.gb_s;
+}
+
 Band memory_interface_area(const FrameResult& frame, const Technology& technology) {
-  return frame.memory.channels * technology.memory_interface.mm2 +
+  return priced_channels(frame, technology) * technology.memory_interface.mm2 +
          technology.sram.mm2(write_queues(frame, technology));
 }
 
@@ -137,7 +145,7 @@ CostResult energy_of(const FrameResult& frame, const Technology& technology) {
     const SramUse queues = write_queues(frame, technology);
     add(energy, kMemoryInterface,
         kMw * frame.time_s() *
-                (frame.memory.channels * technology.memory_interface.mw +
+                (priced_channels(frame, technology) * technology.memory_interface.mw +
                  technology.sram.leakage_mw(queues)) +
             write_queue_energy_j(frame, queues, technology.sram));
   }

@@ -70,10 +70,13 @@ void visit(ConfigVisitor& v, DieCost& cost) {
 void visit(ConfigVisitor& v, MemoryInterfaceCost& cost) {
   v("counted", cost.counted, "whether it is part of area and energy");
   v("memspec", cost.memspec, "memory that they are of: how the names of its memspecs begin");
+  v("gb_s", cost.gb_s, in_range(1e-3, 1e6),
+    "peak bandwidth of the channel that mm2 and mw are of: others take them in proportion");
   v.section("mm2", cost.mm2, "square millimetres of one channel");
   v.section("mw", cost.mw, "milliwatts of one channel, apart from what moves bits");
   v("write_queue_bytes", cost.write_queue_bytes, in_range(0, 1 << 30),
-    "of writes that wait in the controller of one channel: on-chip memory, beside the above");
+    "of writes that wait in the controller of one channel, at the default of "
+    "dram.write_queue_entries: on-chip memory, beside the above");
   v("source", cost.source, "where the numbers are from, and how sure they are");
 }
 

@@ -24,12 +24,15 @@ struct DieCost {
   std::string source;
 };
 
-// PHY and controller of one channel of the memory, on the accelerator's die.
+// PHY and controller of one channel of the memory, on the accelerator's die. Those of another
+// memory go by its peak bandwidth: PHYs by pins and data rate.
 struct MemoryInterfaceCost {
   bool counted = false;
   std::string memspec;  // whose they are: how the names of its memspecs begin; empty: not told
+  double gb_s = 0;      // peak of that channel
   Band mm2, mw;
-  std::uint64_t write_queue_bytes = 0;  // writes that wait; on-chip memory, beside mm2 and mw
+  // Of writes that wait, by the default of dram.write_queue_entries; on-chip memory, beside these.
+  std::uint64_t write_queue_bytes = 0;
   std::string source;
 };
 

@@ -119,7 +119,7 @@ struct MemoryResult {
   std::uint64_t row_hits = 0, row_misses = 0, row_conflicts = 0, refreshes = 0;
   double bandwidth_gb_s = 0, busy_bandwidth_gb_s = 0, peak_gb_s = 0;
   double read_latency_mean_ns = 0, read_latency_p50_ns = 0, read_latency_p99_ns = 0;
-  std::uint32_t channels = 0;
+  std::uint32_t channels = 0, write_queue_entries = 0;
   double bus_utilisation = 0;  // data bus of the busiest channel, 0 to 1
   Remedy remedy;               // for more of it
   double energy_j = 0;

@@ -181,8 +181,8 @@ TEST_CASE("configuration: the memory's interface is of a memory that is named") 
        {Row{{"dram.memspec=lpddr4_3200_8gb"},
             3,
             "LPDDR3's value",
-            "\nlpddr4_3200_8gb: PHY and controller are not known, lpddr3_1600's are counted; I/O 3 "
-            "pJ/bit: own choice (low confidence): LPDDR3's value"},
+            "\nlpddr4_3200_8gb: PHY and controller are not known, lpddr3_1600's are counted by "
+            "peak bandwidth; I/O 3 pJ/bit: own choice (low confidence): LPDDR3's value"},
         Row{{"dram.io_pj_per_bit=0.5"}, 0.5, "dram.io_pj_per_bit", ""}}) {
     INFO(settings[0]);
     const ScratchFolder scratch;

@@ -124,6 +124,20 @@ TEST_CASE("path: codebooks are loaded once") {
   CHECK(still["views"][1]["frame"]["cycles"] < still["views"][0]["frame"]["cycles"]);
 }
 
+TEST_CASE("path: PHY and controller that are counted take power between frames, too") {
+  const ScratchFolder scratch;
+  json table = json::parse(bytes_of(SGS_TECHNOLOGY));
+  table["memory_interface"]["counted"] = true;
+  const std::string counted = scratch.write("counted.json", table.dump());
+  const auto idle_w = [&](const std::string& technology) {
+    const json path =
+        run_path(scratch, {"--path", "builtin:path", "--frames", "2", "--technology", technology});
+    return path["summary"]["idle_w"].get<double>();
+  };
+  const double channels_mw = 4 * table["memory_interface"]["mw"]["middle"].get<double>();
+  CHECK(idle_w(counted) >= idle_w(SGS_TECHNOLOGY) + 1e-3 * channels_mw);
+}
+
 TEST_CASE("path: its files, and those of another run in the folder") {
   const ScratchFolder scratch;
   const auto files = [&] {

@@ -185,6 +185,13 @@ TEST_CASE("whole frame: sampled rays, paper order") {
   CHECK(counter(narrow.views()[0], "vsu", "adjacency_lines_back") > 0);
   CHECK(region_bytes(narrow.views()[0], "adjacency", "write") > 0);
   CHECK(region_bytes(narrow.views()[0], "renaming_table", "read") > 0);
+  // Who waits for edges is told so.
+  const Simulation edges(joined(sampled, {"--set", "vsu.adjacency_lines=1"}));
+  const nlohmann::json traverse = edges.views()[0]["units"]["vsu"]["activities"]["traverse"];
+  for (const nlohmann::json& wait : traverse["waits"]) {
+    if (wait["for"] == "reads") CHECK(wait["key"] == "vsu.adjacency_lines");
+  }
+  CHECK(counter(edges.views()[0], "vsu", "adjacency_lines_back") > 0);
 }
 
 TEST_CASE("whole frame: eight bits are the floats, rounded") {

@@ -102,7 +102,6 @@ void CoarseFilter::filter_slice(const Slice& slice) {
   const RecordSplit& split = job_.layout.split;
   const std::uint64_t cfus = has_cfus_ ? tests_.copies : 1;
   const std::uint64_t of_test = has_cfus_ ? tests_.interval_cycles() : 1;
-  const std::uint64_t interval = cycles_for(cfus, of_test) * of_test;
   FifoWriteIf<FineCandidate>& to = in_turn(survivors, slice.share.visit);
   PlacesUnderTest& places = places_of(slice.share.visit);
   const std::uint64_t began = filter_.clock().now_cycles();
@@ -121,7 +120,7 @@ void CoarseFilter::filter_slice(const Slice& slice) {
       places.wait_for_one(to, filter_);
       cycle = passed = filter_.clock().now_cycles();
     }
-    cycle = next_turn_of_one(cycle, interval, cfus) + 1;
+    cycle = next_turn_of_one(cycle, of_test, cfus) + 1;
     ++counters_.read;
     const SplitFirstHalf first = read_first_half(split, first_half(slice.slot, i));
     const FirstHalfBound bound = bound_first_half(split, first, job_.view);

@@ -228,9 +228,8 @@ bool FineFilter::is_wanted(const Part& part, const FineCandidate& candidate) con
 
 // The FFUs have their turns a cycle after each other.
 void FineFilter::wait_for_turn_of_one(Part& part) const {
-  const std::uint64_t now = part.filter.clock().now_cycles(), of_test = tests_.interval_cycles();
-  const std::uint64_t interval = cycles_for(config_.ffus, of_test) * of_test;
-  part.filter.work(next_turn_of_one(now, interval, config_.ffus) - now);
+  const std::uint64_t now = part.filter.clock().now_cycles();
+  part.filter.work(next_turn_of_one(now, tests_.interval_cycles(), config_.ffus) - now);
 }
 
 void FineFilter::wait_for_place(Part& part, std::uint32_t visit) {

@@ -40,8 +40,10 @@ class AdjacencyCache {
            apart_in_memory(line_bytes(config));
   }
 
-  // Forgets the pass before: bits that say which places are taken.
+  // Frees all places. Each is a tag to write, and so is one that is freed alone.
   void clear() { places_.assign(places_.size(), Place()); }
+  // Frees the place of a line that is there and not used any more; its edges are forgotten.
+  void free(std::uint32_t source, std::uint32_t line) { places_[place_of(source, line)] = {}; }
 
   // Whether a source's line 0, 1, ... is there.
   bool holds(std::uint32_t source, std::uint32_t line) const {

@@ -211,7 +211,7 @@ void PaperVsu::publish(DataSheet& sheet) {
     sheet.may_help(key);
   }
   sheet.remedy(node_memory, WaitFor::kReads,
-               samples_ ? "vsu.renaming_bytes" : "vsu.node_cache_bytes");
+               samples_ ? samples_->remedy_of_reads() : Remedy("vsu.node_cache_bytes"));
   sheet.remedy(record_memory, WaitFor::kReads, "vsu.record_cache_bytes");
   sheet.sram(sram_uses(config_, built_for_));
   sheet.queue(ordered_, "ordered voxels");

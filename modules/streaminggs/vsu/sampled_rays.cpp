@@ -16,6 +16,8 @@ void SampledRays::place_tables(const PaperVsuConfig& config, const VoxelGrid& gr
   const RenamingTable table = renaming_table(grid, config.renaming);
   RenamingPlace& place = job.renaming;
   place.cells = occupied_cells(grid);
+  // Refused here, ahead of what is built and drawn.
+  sample_space(job.view.position, grid.frame, place.cells, config.rays().sample_step_voxels);
   place.numbers = table.numbers;
   place.look_up = table.look_up;
   place.records =
@@ -50,7 +52,6 @@ void SampledRays::begin_pass() {
   pass_from_ = begins_free_ = sampler_free_ = look_up_free_ = table_free_ = written_ = now();
   places_free_.assign(config_.rays_in_flight, now());
   ray_of_pass_ = 0;
-  adjacency_.clear();
 }
 
 bool SampledRays::follow(const PixelRect& group, VisitWindow& window, OrderingTable& table,
@@ -163,7 +164,6 @@ void SampledRays::enter(std::uint32_t voxel, std::uint64_t cycle, Pass& pass) {
   ++counts_.entered;
   const bool follows = pass.chain.begun();
   const std::uint32_t source = follows ? pass.chain.number() : 0;
-  const std::uint32_t voxels = pass.table.voxel_count();
   const OrderingAccesses before = counts_.accesses;
   pass.fits = pass.table.add(pass.chain, voxel);
   counts_.accesses = pass.table.accesses();
@@ -172,8 +172,8 @@ void SampledRays::enter(std::uint32_t voxel, std::uint64_t cycle, Pass& pass) {
   if (follows && pass.fits) last_line = use_lines(source, cycle, pass.table);
   look_up_free_ = std::max(look_up_free_, last_line);
   table_free_ = std::max({cycle + slots, last_line + 1, written_});
-  const bool a_record = pass.table.voxel_count() > voxels || pass.table.added_edge();
-  written_ = table_free_ + std::max<std::uint64_t>(a_record ? 1 : 0, pass.table.ready_written());
+  written_ = table_free_ +
+             std::max<std::uint64_t>(pass.table.written().size(), pass.table.ready_written());
 }
 
 // All lines of a source one a cycle; the last one takes an edge that is new. Returns the cycle of
@@ -213,7 +213,8 @@ std::vector<std::uint32_t> SampledRays::line_of(const OrderingTable& table, std:
 }
 
 // A level of ready voxels a cycle, then the voxel's record, its lines, and for each edge the record
-// that it leads to. Names are cleared meanwhile.
+// that it leads to. Names are cleared meanwhile. Each line is read for the last time, and its tag
+// freed beside: so all places are free for the next pass.
 void SampledRays::ordered(const std::vector<std::uint32_t>& voxels, const OrderingTable& table,
                           bool last) {
   lists_.wait_for_room();
@@ -227,7 +228,11 @@ void SampledRays::ordered(const std::vector<std::uint32_t>& voxels, const Orderi
     cycles += table.ready_levels() + 1 + lines + table.out_degree(number);
     counts_.lines_read += lines;
     for (std::uint32_t line = 0; line < lines; ++line) {
-      if (adjacency_.holds(number, line)) continue;
+      if (adjacency_.holds(number, line)) {
+        adjacency_.free(number, line);
+        ++counts_.tags_freed;
+        continue;
+      }
       activity_.work(std::exchange(cycles, 0));
       adjacency_.read_back(number, line, line_of(table, number, line), port_, activity_);
     }
@@ -239,10 +244,13 @@ void SampledRays::ordered(const std::vector<std::uint32_t>& voxels, const Orderi
 
 void SampledRays::clear(const OrderingTable& table) {
   counts_.accesses = table.accesses();
-  const std::uint64_t names = names_bytes(config_) / kNamesWord, ready = ready_words(config_);
+  const std::uint64_t names = names_bytes(config_) / kNamesWord, ready = ready_words(config_),
+                      tags = config_.adjacency_lines;
   counts_.names_cleared += names;
   counts_.ready_cleared += ready;
-  activity_.work(std::max(names, ready));
+  counts_.tags_freed += tags;
+  adjacency_.clear();
+  activity_.work(std::max({names, ready, tags}));
 }
 
 }  // namespace sgs

@@ -29,7 +29,7 @@ class SampledRays {
                                                           "vsu.adjacency_lines", "vsu.table_bytes"};
 
   // Adds to the job what it needs: the renaming table of the grid, and a region for edges. Throws
-  // InputError where the grid has too many cells.
+  // InputError where the grid has too many cells, or a ray too many samples.
   static void place_tables(const PaperVsuConfig& config, const VoxelGrid& grid, FrameJob& job);
 
   // activity, port and job outlive it.
@@ -42,8 +42,9 @@ class SampledRays {
 
   static SramUses sram_uses(const PaperVsuConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet) const;
-  // Parameter that lets the rays of a frame be followed faster.
+  // Parameters that let the rays of a frame be followed faster, and have less read for them.
   Remedy remedy() const;
+  Remedy remedy_of_reads() const;
 
  private:
   struct Pass {
@@ -63,6 +64,7 @@ class SampledRays {
     std::uint64_t rays = 0, samples = 0, beats = 0, cells = 0, met = 0, entered = 0;
     std::uint64_t lines_read = 0, lines_written = 0;
     std::uint64_t names_cleared = 0, ready_cleared = 0;  // words
+    std::uint64_t tags_freed = 0;                        // tags of lines
     OrderingAccesses accesses;                           // accesses to the table so far
   };
 

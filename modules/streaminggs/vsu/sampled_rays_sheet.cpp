@@ -65,7 +65,8 @@ void SampledRays::publish(DataSheet& sheet) const {
   // A line that goes out is read, one that comes back is written.
   const std::uint64_t out = adjacency_.lines_out(), back = adjacency_.lines_back();
   sheet.accesses("adjacency lines", counts_.lines_read + out, counts_.lines_written + back);
-  sheet.accesses("adjacency tags", counts_.lines_read, counts_.lines_written + back);
+  sheet.accesses("adjacency tags", counts_.lines_read,
+                 counts_.lines_written + back + counts_.tags_freed);
   sheet.counter("samples", "samples", "of rays, in the box of all voxels or a hair beside it",
                 counts_.samples);
   sheet.counter("cells_looked_up", "cells", "of samples, each of a ray once, in the renaming table",
@@ -92,6 +93,11 @@ Remedy SampledRays::remedy() const {
   if (counts_.rays * begins_.interval_cycles() > counts_.beats) return "vsu.ray_lanes";
   if (counts_.beats > counts_.cells) return "vsu.samples_per_cycle";
   return "vsu.sample_step_voxels";
+}
+
+Remedy SampledRays::remedy_of_reads() const {
+  if (adjacency_.lines_back() > renaming_.misses()) return "vsu.adjacency_lines";
+  return "vsu.renaming_bytes";
 }
 
 }  // namespace sgs

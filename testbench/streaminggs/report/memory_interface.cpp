@@ -19,10 +19,11 @@ std::string source_of(const char* key, const Memspec& device) {
 
 std::string MemoryInterface::in_words() const {
   const std::string whose = area_of.empty() ? "those of the technology table" : area_of + "'s";
-  return fmt::format(
-      "{}: PHY and controller {}; I/O {:g} pJ/bit: {}", memspec,
-      area_known ? "by the technology table" : fmt::format("are not known, {} are counted", whose),
-      io_pj_per_bit, io_source);
+  return fmt::format("{}: PHY and controller {}; I/O {:g} pJ/bit: {}", memspec,
+                     area_known
+                         ? "by the technology table"
+                         : fmt::format("are not known, {} are counted by peak bandwidth", whose),
+                     io_pj_per_bit, io_source);
 }
 
 MemoryInterface memory_interface_of(const DramConfig& dram, const Technology& technology) {

@@ -79,6 +79,7 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
   if (timeline) timeline->close();
   add_memory_path(*machine, dram.buses(memory.memspec()), result.machine);
   result.memory = collect_memory(memory.stats(), job.layout.regions, machine->requesters());
+  result.memory.write_queue_entries = dram.write_queue_entries;
   result.frame.resize(job.frame_buffer.bytes);
   memory.read_back(job.frame_buffer.base, result.frame.data(), result.frame.size());
   if (waveform) {

@@ -48,7 +48,9 @@ std::optional<RunConfig> with_codebooks(RunConfig& config, const SecondHalfForma
 double idle_w(const ViewResult& view) {
   double joules = 0;
   for (const auto& [component, energy] : view.energy_j.by_component) {
-    if (component == "logic_leakage" || component == "sram_leakage") joules += energy.middle;
+    for (const char* stays : {"logic_leakage", "sram_leakage", "memory_interface"}) {
+      if (component == stays) joules += energy.middle;
+    }
   }
   for (const auto& [region, energy] : view.run.memory.energy_by_region_j) {
     if (region == "standby_and_refresh") joules += energy;

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "algorithm/files/input_error.h"
 #include "algorithm/voxel/cell_samples.h"
 #include "algorithm/voxel/ray_path.h"
 #include "algorithm/voxel/ray_sampling.h"
@@ -346,6 +347,11 @@ TEST_CASE("cell samples: the distance from the eye's cell rises from cell to cel
   CellSamples<> none(sample_space({0, 0, 0}, frame, {50, 40, 30}, 0.5F));
   none.begin({0, 0, 0});
   CHECK(none.done());
+  // A sample whose number is too large to count on would be taken for ever.
+  CHECK_NOTHROW(sample_space({0, 0, 0}, frame, {50, 40, 30}, 1e-5F));
+  for (const auto& [eye, step] : {std::pair(0.0F, 1e-6F), std::pair(1e7F, 0.5F)}) {
+    CHECK_THROWS_AS(sample_space({eye, 0, 0}, frame, {50, 40, 30}, step), InputError);
+  }
 }
 
 TEST_CASE("renaming table: every voxel and no empty cell, in either form") {

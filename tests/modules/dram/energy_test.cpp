@@ -1,6 +1,8 @@
 // Energy: state residencies and joules against hand calculation from the currents.
 #include <catch2/catch.hpp>
+#include <map>
 #include <numeric>
+#include <string>
 
 #include "modules/dram/dram_energy.h"
 #include "modules/dram/queued_channel.h"
@@ -109,6 +111,37 @@ TEST_CASE("energy: the published events of the source agree") {
   CHECK(kWritePj == Approx(936.0));
   CHECK(kRefreshPj == Approx(24180.0));
   CHECK(kActivePj / 1.25 == Approx(44.4));
+}
+
+TEST_CASE("energy: per-bank refreshes of all rows take what an all-bank refresh takes") {
+  for (const std::string& name : shipped_memspecs()) {
+    INFO(name);
+    const Memspec m = load_memspec(name);
+    const auto of = [&](std::uint64_t all, std::uint64_t bank) {
+      RankActivity rank;
+      rank.refreshes_all = all;
+      rank.refreshes_bank = bank;
+      return dram_energy(m, m.currents.at(m.default_currents), {rank}, {}, 0).total_pj();
+    };
+    const Memspec::Timing& t = m.timing_cycles;
+    const std::uint32_t refreshes = (t.refi + t.refi_bank / 2) / t.refi_bank;
+    CHECK(of(0, refreshes) == Approx(of(1, 0)));
+  }
+}
+
+TEST_CASE("energy: a bit of whole rows read in sequence takes what is published") {
+  for (const auto& [name, pj] :
+       std::map<std::string, double>{{"hbm2e_3200_16gb", 3.9}, {"hbm3_6400_16gb", 3.9}}) {
+    INFO(name);
+    const Memspec m = load_memspec(name);
+    RankActivity rank;
+    rank.activates = 1;
+    rank.reads = m.bursts_per_row();
+    rank.active_cycles = rank.reads * m.burst_cycles();
+    const DramEnergy energy =
+        dram_energy(m, m.currents.at(m.default_currents), {rank}, {}, m.io_pj_per_bit);
+    CHECK(energy.total_pj() / (8.0 * m.row_bytes()) == Approx(pj).epsilon(0.04));
+  }
 }
 
 TEST_CASE("energy: a sequential and a random stream equal the hand calculation to 0.1 %") {

@@ -80,6 +80,19 @@ TEST_CASE("memspecs: sizes and peaks") {
   }
 }
 
+// JESD79-5, 4.13: same-bank refreshes of DDR5 come twice as often, with half of the rows each.
+TEST_CASE("memspecs: per-bank refreshes reach all banks as often as all-bank ones") {
+  for (const std::string& name : shipped_memspecs()) {
+    INFO(name);
+    const Memspec m = load_memspec(name);
+    CHECK(m.refreshes_of_set() == (name == "ddr5_4800_16gb" ? 2 : 1));
+    CHECK(m.timing_cycles.refi_bank * m.refresh_sets() * m.refreshes_of_set() ==
+          Approx(m.timing_cycles.refi).epsilon(1e-3));
+  }
+  const std::vector<std::string> none = check_memspec(load_memspec("ddr5_4800_16gb"), "file");
+  CHECK(none.empty());
+}
+
 TEST_CASE("memspecs: each has a rule for heat, which keeps to its own limits") {
   for (const std::string& name : shipped_memspecs()) {
     INFO(name);
@@ -359,6 +372,10 @@ TEST_CASE("memspecs: DRAMSys's other forms, and what has none") {
   CHECK(ddr4.timing_cycles.wtr_l == 16);
   CHECK(ddr4.timing_cycles.rfc_bank == 448);
   CHECK(ddr4.timing_cycles.refi_bank == 6246);
+  // A current without a number is none, and that is said.
+  const Memspec without =
+      load_memspec(with({{"\"idd62\": 0.5e-3", "\"idd62\": 0"}, {"\"vdd2\": 1.1, ", ""}}));
+  CHECK(without.notes.back().find("vdd2_ma.idd6 0, vdd2_v 1") != std::string::npos);
   // HBM counts columns in bursts, has pseudo-channels, and may have no currents.
   const Memspec hbm =
       load_memspec(with({{"LPDDR4", "HBM2"},

@@ -33,6 +33,7 @@ Technology priced() {
   technology.sram.leakage_mw_kib = same(7);
   technology.die.clock_pj_mm2_cycle = around(11);
   technology.die.logic_leakage_mw_mm2 = around(13);
+  technology.memory_interface.gb_s = 6.4;
   technology.memory_interface.mm2 = same(0.5);
   technology.memory_interface.mw = same(17);
   return technology;
@@ -59,6 +60,8 @@ FrameResult frame() {
   frame.machine.sram_accesses = {{"first halves", 20, 6}};
   frame.memory.energy_j = 1e-6;
   frame.memory.channels = 4;
+  frame.memory.write_queue_entries = 32;
+  frame.memory.peak_gb_s = 25.6;
   return frame;
 }
 
@@ -122,6 +125,9 @@ TEST_CASE("cost: the memory's interface counts where the table says so") {
         Approx(without + 4 * 0.5 + 4 * 65536 * 1e3 * 1e-6));
   CHECK(of(energy_of(writing, technology), "memory_interface").middle ==
         Approx((4 * 17e-3 + 4 * 8 * 7e-3) * 2e-6 + 32 * (1 + 1.5) * 512e-12));
+  writing.memory.write_queue_entries = 96;
+  CHECK(area_of(writing, technology).total.middle ==
+        Approx(without + 4 * 0.5 + 3 * 4 * 65536 * 1e3 * 1e-6));
 }
 
 TEST_CASE("cost: area with and without the memory's interface, whatever the table counts") {
@@ -139,9 +145,11 @@ TEST_CASE("cost: area with and without the memory's interface, whatever the tabl
           area_of(frame(), technology).total.middle);
   }
   FrameResult doubled = frame();
-  doubled.memory.channels *= 2;
+  doubled.memory.peak_gb_s *= 2;  // by channels, or by a faster memory
   CHECK(area_totals(doubled, technology).with_memory_interface.middle ==
         Approx(3 + 16.384 + 8 * 0.5));
+  technology.memory_interface.counted = true;
+  CHECK(of(energy_of(doubled, technology), "memory_interface").middle == Approx(8 * 17e-3 * 2e-6));
 }
 
 TEST_CASE("cost: area by owner is each unit's parts with its on-chip memory") {
@@ -190,6 +198,7 @@ TEST_CASE("cost: tables that say less than they must, or bands out of order, are
            {"/parts/fp32_lane/pj", {}, ": parts.fp32_lane.pj.low: got nothing, expected it"},
            {"/sram/macro/high", {}, ": sram.macro.high: got nothing"},
            {"/die", {}, ": die.clock_pj_mm2_cycle.low: got nothing"},
+           {"/memory_interface/gb_s", {}, ": memory_interface.gb_s: got nothing"},
            {"/memory_interface/counted", {}, ": memory_interface.counted: got nothing"}}) {
     changed(row.place, row.value);
     const std::string said = input_error_of([&] { load_technology(path); });

@@ -41,9 +41,7 @@ class ClockedCoarseFilter {
       : out(hardware.output_entries, 0),
         hw_(hardware),
         port_(hardware.port),
-        free_slots_(hardware.input_slots) {
-    while (between_turns_ < hw_.cfus) between_turns_ += hw_.test_cycles;
-  }
+        free_slots_(hardware.input_slots) {}
 
   // What leaves the pipelines in this cycle; ahead of the reader of `out`.
   void step_results() {
@@ -107,7 +105,7 @@ class ClockedCoarseFilter {
       }
     }
     if (at_ < slice.end) {
-      const bool turn = now_ % between_turns_ < hw_.cfus;
+      const bool turn = now_ % hw_.test_cycles < hw_.cfus;
       if (!turn || !has_place()) return;
       begin(share.what[at_], share.passes[at_]);
       if (++at_ < slice.end) return;
@@ -153,7 +151,7 @@ class ClockedCoarseFilter {
 
   const CoarseHardware hw_;
   ClockedPort port_;
-  std::uint64_t between_turns_ = 0, now_ = 0;
+  std::uint64_t now_ = 0;
   std::deque<CoarseShare> shares_;         // that are loaded or dispatched
   std::optional<Slice> loading_, asking_;  // the share that is cut; the slice that is asked for
   std::deque<Slice> slices_;               // asked for; the first goes to the CFUs

@@ -67,7 +67,7 @@ class ClockedDecodingFilter {
   ClockedDecodingFilter(const FineHardware& hardware, const CodebookHardware& codebooks,
                         std::uint32_t reader)
       : reader_(reader),
-        fetch_(hardware),
+        fetch_(hardware, 0),
         ffu_(hardware),
         decoded_(kDecodedEntries, codebooks.latency_cycles) {}
 

@@ -9,7 +9,7 @@ namespace sgs::test {
 class ClockedFineFilter {
  public:
   explicit ClockedFineFilter(const FineHardware& hardware)
-      : hw_(hardware), fetch_(hardware), ffu_(hardware) {}
+      : hw_(hardware), fetch_(hardware, hardware.read_cycles), ffu_(hardware) {}
 
   ClockedFifo<std::uint64_t>& out() { return ffu_.out; }
   void step_results() { ffu_.step_results(); }

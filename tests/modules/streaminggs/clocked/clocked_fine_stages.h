@@ -36,8 +36,9 @@ struct FineItem {
 
 class ClockedFetch {
  public:
-  explicit ClockedFetch(const FineHardware& hardware)
-      : hw_(hardware), port_(hardware.port), free_slots_(hardware.slots) {}
+  // slots_in: cycles until the slots are free, from the first cycle on.
+  ClockedFetch(const FineHardware& hardware, std::uint32_t slots_in)
+      : hw_(hardware), port_(hardware.port), freed_(hardware.slots, slots_in) {}
 
   bool can_take() const { return !fetched_.empty() && fetched_.front().seen_in == 0; }
   const FineItem& front() const { return fetched_.front().item; }
@@ -104,7 +105,7 @@ class ClockedFetch {
   ClockedPort port_;
   std::optional<FineItem> fetching_, asking_;  // wants a slot; its transactions leave
   std::deque<Fetched> fetched_;
-  std::uint32_t free_slots_;
+  std::uint32_t free_slots_ = 0;
   std::deque<std::uint32_t> freed_;  // cycles until a slot is free
 };
 
@@ -132,10 +133,7 @@ class ClockedFfu {
     if (!wants_) wants_ = !finished(item.group);
     return *wants_;
   }
-  bool has_turn() const {
-    const std::uint32_t rounds = (hw_.ffus + hw_.test_cycles - 1) / hw_.test_cycles;
-    return now_ % (std::uint64_t{rounds} * hw_.test_cycles) < hw_.ffus;
-  }
+  bool has_turn() const { return now_ % hw_.test_cycles < hw_.ffus; }
   // A mark passes beside what the lanes do. read_cycles: that an item is being read.
   void begin(const FineItem& item, std::uint32_t read_cycles) {
     if (!item.is_mark) {

@@ -25,6 +25,7 @@ class ClockedOrderingTable {
     clear();
   }
 
+  std::uint64_t free_tags() { return 0; }  // its edges are words without
   void clear() {
     slots_.assign(Renaming::slots_for(held_), kNone);
     voxels_.clear();

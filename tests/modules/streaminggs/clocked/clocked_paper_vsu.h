@@ -106,7 +106,8 @@ class ClockedPaperVsu {
       if (ordered_.has_room()) order();  // where the list is written
     } else if (!rays_.waits_for_lines()) {
       window_ = rays_.window().nearer_half();
-      busy_ = std::max(clearing_cycles(), ReadyVoxels::all_words_for(most_voxels()));
+      busy_ = std::max(
+          {clearing_cycles(), ReadyVoxels::all_words_for(most_voxels()), table_.free_tags()});
       doing_ = Pass::kBegin;
     }
   }

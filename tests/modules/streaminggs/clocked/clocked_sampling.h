@@ -39,6 +39,7 @@ class ClockedSampledTable {
         bytes_(bytes),
         held_(std::max<std::uint64_t>(1, std::min<std::uint64_t>(voxels, bytes / 8))),
         port_(port) {
+    free_tags();
     clear();
   }
 
@@ -48,10 +49,14 @@ class ClockedSampledTable {
   void clear() {
     slots_.assign(Renaming::slots_for(held_), kNone);
     voxels_.clear();
-    places_.assign(hw_.lines, Place());
     ready_ = ReadyVoxels(held_);
     writes_ = 0;
     fits_ = true;
+  }
+  // Frees the places of a pass that is given up; the cycles that it takes.
+  std::uint64_t free_tags() {
+    places_.assign(hw_.lines, Place());
+    return hw_.lines;
   }
   bool fits() const { return fits_; }
   bool idle() const { return doing_ == Doing::kNothing; }
@@ -151,16 +156,19 @@ class ClockedSampledTable {
     }
     if (slots_left_ > 0 || line_ < lines_) return;
     if (writes_ > 0) return;
-    writes_ = std::max<std::uint64_t>(is_new_ || added_ ? 1 : 0, ready_words_);
+    const bool begins_line = added_ && begins();
+    writes_ =
+        std::max<std::uint64_t>((is_new_ || added_ ? 1 : 0) + (begins_line ? 1 : 0), ready_words_);
     doing_ = Doing::kNothing;
   }
+  // Whether the last edge of the source began a line, so that its record has one more.
+  bool begins() const { return (voxels_[from_].to.size() - 1) % hw_.destinations == 0; }
   // Brings the line: who has its place goes first.
   bool line_is_there() {
     Place& at = place(from_, line_);
     if (fetch_ == Fetch::kNone) {
       if (at.source == from_ && at.line == line_) return true;
-      const bool begins = (voxels_[from_].to.size() - 1) % hw_.destinations == 0;
-      reads_ = !(line_ + 1 == lines_ && added_ && begins);
+      reads_ = !(line_ + 1 == lines_ && added_ && begins());
       fetch_ = at.source != kNone && at.changed ? Fetch::kWrite : Fetch::kSettle;
       if (fetch_ == Fetch::kWrite) moved_ = transfer(at.source, at.line);
     }
@@ -208,8 +216,10 @@ class ClockedSampledTable {
       return;
     }
     if (line_ < lines_) {
-      const Place& at = place(number_, line_);
-      if (fetch_ == Fetch::kNone && !(at.source == number_ && at.line == line_)) {
+      Place& at = place(number_, line_);
+      if (at.source == number_ && at.line == line_) {
+        at = Place();  // it is wanted no more
+      } else if (fetch_ == Fetch::kNone) {
         reads_ = true;
         fetch_ = Fetch::kSettle;
       }

@@ -115,6 +115,10 @@ TEST_CASE("clocked reference: coarse filter") {
   tiny.output_entries = 2;
   CoarseHardware far = exact;
   far.port.read_latency = 300;
+  CoarseHardware many = paper;
+  many.cfus = 7;
+  many.test_cycles = 6;
+  many.output_entries = 200;
   for (const CoarseWorkload& load : {
            CoarseWorkload{"light: visits of up to 3", 3, {}, exact},
            CoarseWorkload{"heavy: visits of up to 16", 16, {}, exact},
@@ -126,6 +130,7 @@ TEST_CASE("clocked reference: coarse filter") {
            CoarseWorkload{"groups that finish", 16, {1, 1, 1, 1, {1500}}, exact, of_exact, 7571},
            CoarseWorkload{"long visits finish", 300, {1, 1, 1, 1, {2500}}, exact, of_exact, 13715},
            CoarseWorkload{"as of paper, visits of up to 256", 256, {}, paper, of_paper},
+           CoarseWorkload{"more CFUs than a test has cycles", 256, {}, many, of_paper},
            CoarseWorkload{"as of paper, output stalled", 256, {1, 1, 4, 60}, paper, of_paper},
            CoarseWorkload{"as of paper, groups that finish",
                           256,

@@ -221,6 +221,8 @@ TEST_CASE("clocked reference: VSU of paper order that samples rays") {
   far.rays.port.read_latency = 100;
   PaperVsuHardware full = far;
   full.table_bytes = 400;
+  PaperVsuHardware little = paper;
+  little.table_bytes = 128;
   PaperVsuHardware cut = paper;
   cut.visit_gaussians = 64;
   SamplingHardware one;
@@ -248,6 +250,7 @@ TEST_CASE("clocked reference: VSU of paper order that samples rays") {
            PaperVsuWorkload{"edges in DRAM", 3000, 1, 1, far, 4, 4, 0.3F, {}, narrow},
            PaperVsuWorkload{"voxels cut", 5000, 1, 1, cut, 4, 4, 2, {}, one},
            PaperVsuWorkload{"passes: a table of 400 B", 3000, 1, 1, full, 4, 4, 0.5F, {}, small},
+           PaperVsuWorkload{"passes: tags are freed", 3000, 1, 1, little, 4, 4, 1, {}, four},
            PaperVsuWorkload{"groups that finish", 1500, 4, 300, paper, 4, 4, 1, {21000}, one},
        }) {
     table.workload(load, run_paper_vsu, [](const PaperVsuWorkload& of, std::uint64_t seed) {
