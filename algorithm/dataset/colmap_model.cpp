@@ -136,6 +136,26 @@ Place place_in(const fs::path& folder, const std::array<const char*, kCount>& pl
   return {};
 }
 
+bool holds_model(const fs::path& folder) {
+  std::error_code unknown;
+  return fs::exists(folder / "cameras.bin", unknown) || fs::exists(folder / "cameras.txt", unknown);
+}
+
+// The mapper numbers its models: one for each part of the images that it could not join to others.
+std::vector<std::string> models_beside(const fs::path& model, const std::string& folder) {
+  const fs::path data_set = fs::path(folder).lexically_normal();
+  if (model == data_set || model.filename() != "0") return {};
+  std::vector<std::string> names;
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(model.parent_path(), failed)) {
+    const std::string name = entry.path().filename().string();
+    const bool numbered = name.find_first_not_of("0123456789") == std::string::npos;
+    if (!numbered || name == "0" || !holds_model(entry.path())) continue;
+    names.push_back("the model " + entry.path().lexically_relative(data_set).string());
+  }
+  return names;
+}
+
 std::vector<SfmPoint> points_of(const Place& place) {
   std::error_code unknown;
   const std::string folder = place.folder.string();
@@ -169,6 +189,7 @@ StatedDataset read_colmap(const std::string& folder) {
   if (fs::is_directory(fs::path(folder) / "masks", unknown)) {
     dataset.unread_keys["the folder masks"] = 1;
   }
+  for (const std::string& name : models_beside(place.folder, folder)) dataset.unread_keys[name] = 1;
   for (const ColmapImage& image : model.images) {
     const auto camera = model.cameras.find(image.camera_id);
     if (camera == model.cameras.end()) {

@@ -46,7 +46,8 @@ constexpr Kind kKinds[] = {
     {"rot_r_", true, "Gaussians that move", kExportOneTime},
 };
 
-// The mode that a comment asks for: "SplatRenderMode: mip" (Brush), "antialiased 1" (Postshot).
+// The mode that a comment asks for: "SplatRenderMode: mip" (Brush), "antialiased 1" or
+// "postshot.anti_aliasing=1" (Postshot).
 std::string render_mode(const PlyHeader& header) {
   std::string mode;
   for (const std::string& comment : header.comments) {
@@ -58,8 +59,10 @@ std::string render_mode(const PlyHeader& header) {
     }
     constexpr std::string_view kBrush = "splatrendermode:";
     if (begins_with(words, kBrush)) mode = words.substr(kBrush.size());
-    if (words == "antialiased1") mode = "mip";
-    if (words == "antialiased0") mode = "default";
+    for (const char* postshot : {"antialiased", "postshot.anti_aliasing="}) {
+      if (words == std::string(postshot) + "1") mode = "mip";
+      if (words == std::string(postshot) + "0") mode = "default";
+    }
   }
   return mode;
 }

@@ -66,9 +66,26 @@ struct Attributes {
       return fmt::format("{}SH_DEGREE_{}_COEF_{}", prefix, band, number);
     };
     if (fields.has(name_of(4, 0))) fields.at(name_of(4, 0)).refuse("SH of degree 3 at most");
-    while (degree < 3 && fields.has(name_of(degree + 1, 0))) ++degree;
+    for (int band = 1; band <= 3; ++band) {
+      for (int k = 0; k < 2 * band + 1; ++k) {
+        if (fields.has(name_of(band, k))) degree = band;
+      }
+    }
+    // A degree comes whole, with all below it.
     for (int band = 0; band <= degree; ++band) {
       for (int k = 0; k < 2 * band + 1; ++k) sh.push_back(accessor(name_of(band, k), 3));
+    }
+    refuse_logarithms(fields.at(prefix + "SCALE"));
+  }
+
+  // Drafts of the extension had logarithms.
+  void refuse_logarithms(const JsonPlace& place) const {
+    for (std::uint64_t i = 0; i < scale.count; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        if (!(scale.at(i, k) < 0)) continue;
+        place.refuse(fmt::format("a scale of {} of Gaussian {}", scale.at(i, k), i),
+                     "none below 0: drafts of the extension had logarithms, so export it again");
+      }
     }
   }
 
@@ -97,6 +114,7 @@ void check_kind(const JsonPlace& splats) {
   check("kernel", "ellipse");
   check("colorSpace", "srgb_rec709_display");
   check("projection", "perspective");
+  check("sortingMethod", "cameraDistance");
 }
 
 // What a file may ask of its reader. Quantised accessors are read as all others.
@@ -138,6 +156,9 @@ class GltfReader {
       contents_.notes.push_back(
           fmt::format("{} primitives without {} are skipped", others_, kExtension));
     }
+    contents_.notes.emplace_back(
+        "it asks for an order by distance from the camera; Gaussians are drawn by depth, as the "
+        "original draws them");
     return std::move(contents_);
   }
 

@@ -184,7 +184,8 @@ SceneContents read_parts(const SceneParts& parts, const std::string& meta_name,
                     "sides",
                     unlabelled.load(), palette->count));
   }
-  if (model == "antialiased") contents.notes.emplace_back(kAntialiasedNote);
+  const bool antialiased = meta.has("antialias") && meta.at("antialias").flag();
+  if (antialiased || model == "antialiased") contents.notes.emplace_back(kAntialiasedNote);
   return contents;
 }
 

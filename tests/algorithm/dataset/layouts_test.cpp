@@ -446,4 +446,7 @@ TEST_CASE("dataset: names that say nothing here are counted") {
   write_file(colmap.path(""), "masks/shot_00.png.png", "");
   REQUIRE(open_dataset(colmap.path("")).notes.size() == 1);
   CHECK(open_dataset(colmap.path("")).notes[0].second == "the folder masks");
+  write_file(colmap.path(""), "sparse/1/cameras.txt", "");
+  write_file(colmap.path(""), "sparse/2/notes.txt", "");
+  CHECK(open_dataset(colmap.path("")).notes[0].second == "the folder masks, the model sparse/1");
 }

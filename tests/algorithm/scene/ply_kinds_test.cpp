@@ -85,7 +85,8 @@ TEST_CASE("ply kinds: what is skipped is noted, normals are not") {
   REQUIRE(notes.size() == 2);
   CHECK(notes[0] == "2 properties are skipped, since no picture needs them: confidence, label");
   CHECK(notes[1] == "1 element is skipped, since no picture needs it: camera");
-  for (const char* comment : {"SplatRenderMode: mip", "Antialiased 1"}) {
+  for (const char* comment :
+       {"SplatRenderMode: mip", "Antialiased 1", "postshot.anti_aliasing=1"}) {
     PlyTable mip = counting_table(2);
     mip.header_before = std::string("comment ") + comment + "\n";
     notes = read_ply(scratch.write("a.ply", test::bytes_of(mip))).notes;

@@ -12,6 +12,10 @@ using test::code;
 
 namespace {
 
+constexpr const char* kOrderNote =
+    "it asks for an order by distance from the camera; Gaussians are drawn by depth, as the "
+    "original draws them";
+
 void replace(std::string& text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   REQUIRE(at != std::string::npos);
@@ -25,7 +29,7 @@ TEST_CASE("gltf: attributes, turned half about z") {
   for (const int degree : {0, 1, 2, 3}) {
     const Scene scene = load_scene(scratch.write("a.glb", test::glb_bytes(5, degree)));
     CHECK(scene.form == "glTF");
-    CHECK(scene.notes.empty());
+    CHECK(scene.notes == std::vector<std::string>{kOrderNote});
     REQUIRE(scene.cloud.size() == 5);
     REQUIRE(scene.cloud.sh_degree == degree);
     const int coeffs = sh_coeff_count(degree);
@@ -133,8 +137,26 @@ TEST_CASE("gltf refuses: other kinds, and what does not fit its buffer") {
   CHECK_THAT(refusal("\"count\": 3", "\"count\": 4000000000"), Contains("count: got 4000000000"));
   CHECK_THAT(refusal("\"count\": 3", "\"count\": 2"), Contains("an accessor of 2 as POSITION"));
   CHECK_THAT(refusal("\"byteOffset\": 0", "\"byteOffset\": 9000"), Contains("byteLength"));
-  CHECK_THAT(refusal("SH_DEGREE_1_COEF_2", "SH_DEGREE_1_COEF_9"), Contains("SH_DEGREE_1_COEF_2"));
+  for (const char* coefficient : {"SH_DEGREE_1_COEF_0", "SH_DEGREE_1_COEF_2"}) {
+    CHECK_THAT(refusal(coefficient, "SH_DEGREE_1_COEF_9"), Contains(coefficient));
+  }
+  CHECK_THAT(refusal("\"kernel\"", R"("sortingMethod": "other", "kernel")"),
+             Contains("sortingMethod: got \"other\", expected \"cameraDistance\""));
   CHECK_THAT(refusal("\"2.0\"", "\"1.0\""), Contains("version: got \"1.0\""));
   CHECK_THAT(refusal("\"scene\": 0", R"("extensionsRequired": ["EXT_other"], "scene": 0)"),
              Contains("extensionsRequired: got EXT_other, expected none but KHR_gaussian_spl"));
+}
+
+TEST_CASE("gltf refuses: logarithms in place of scales, also where faulty Gaussians are left out") {
+  constexpr std::size_t kScales = 2 * (12 + 16);  // behind centres and quaternions
+  const test::ScratchFolder scratch;
+  std::string glb = test::glb_bytes(2, 0);
+  std::uint32_t json_bytes = 0;
+  std::memcpy(&json_bytes, &glb[12], sizeof json_bytes);
+  test::put_at(glb, 28 + json_bytes + kScales + 16, -4.5F);  // of Gaussian 1, along y
+  const std::string path = scratch.write("a.glb", glb);
+  for (const bool drop_invalid : {false, true}) {
+    CHECK_THAT(test::input_error_of([&] { load_scene(path, {drop_invalid}); }),
+               Contains("SCALE: got a scale of -4.5 of Gaussian 1, expected none below 0"));
+  }
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "algorithm/scene/ply_header.h"
 #include "algorithm/scene_files/load_scene.h"
 #include "tests/algorithm/scene_files/made_scene_files.h"
 #include "tests/support/scratch_folder.h"
@@ -147,6 +148,19 @@ TEST_CASE("sog: Gaussians without a label or a rotation are counted") {
   CHECK(scene.cloud.quats[1] == std::array<float, 4>{1, 0, 0, 0});
   CHECK(scene.cloud.sh_coeffs[2 * 4 + 1] == glm::vec3(0));
   CHECK(scene.cloud.sh_coeffs[3 * 4 + 1] != glm::vec3(0));
+}
+
+TEST_CASE("sog: training for an anti-aliased rasteriser is noted, however it is said") {
+  const test::ScratchFolder scratch;
+  const auto notes_with = [&](const std::string& member) {
+    std::vector<test::Part> parts = test::sog_parts(4, 0);
+    parts[0].bytes.replace(0, 1, "{" + member + ", ");
+    return load_scene(scratch.write("a.sog", test::zip_bytes(parts))).notes;
+  };
+  const std::vector<std::string> noted = {kAntialiasedNote};
+  CHECK(notes_with(R"("model": "antialiased")") == noted);
+  CHECK(notes_with(R"("antialias": true)") == noted);
+  CHECK(notes_with(R"("antialias": false)").empty());
 }
 
 TEST_CASE("sog: a folder whose meta.json is of something else is no scene") {
