@@ -4,11 +4,7 @@
 #include <limits>
 #include <string>
 #include <tuple>
-#include <vector>
 
-#include "algorithm/scene/camera.h"
-#include "algorithm/scene/ply_writer.h"
-#include "testbench/builtin/builtin_scene.h"
 #include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"
 
@@ -85,16 +81,6 @@ TEST_CASE("encodings: a record's bytes, and what each encoding costs in the pict
   }
 }
 
-TEST_CASE("encodings: nothing is lost where codebooks hold every value") {
-  Arguments arguments = with_settings(
-      {"builtin:object?n=1500", "--size", "64x36"},
-      {"storage.encoding=vq", "sram.codebook_bytes=1000000", "storage.vq.sh_entries=4096"});
-  const Simulation vq(arguments);
-  vq.check();
-  // All but opacity, in 255ths, and scales, through a logarithm.
-  CHECK(encoding_psnr(vq) > 45);
-}
-
 TEST_CASE("encodings: without feedback every record fetched is decoded and tested") {
   for (const char* order : {"exact", "paper"}) {
     const Simulation simulation(
@@ -126,104 +112,6 @@ TEST_CASE("encodings: codebooks that an earlier frame left cost no traffic and n
   }
 }
 
-TEST_CASE("encodings: fewer and narrower banks cost cycles, no pixel") {
-  for (const char* order : {"exact", "paper"}) {
-    const Arguments common = encoded(order, "vq_packed");
-    const Simulation wide(with_settings(common, {"codebook.banks=64", "codebook.line_bytes=64"}));
-    const Simulation narrow(with_settings(common, {"codebook.banks=1", "codebook.line_bytes=4"}));
-    wide.check();
-    narrow.check();
-    CHECK(narrow.frame(0) == wide.frame(0));
-    CHECK(cycles_of(narrow) > cycles_of(wide));
-    const Json &few = narrow.views()[0], &many = wide.views()[0];
-    // 55 words a record.
-    CHECK(total(few, "lines_read") == 55 * total(few, "records_decoded"));
-    CHECK(total(many, "lines_read") < 10 * total(many, "records_decoded"));
-    CHECK(total(few, "bank_conflict_cycles") > 100 * total(many, "bank_conflict_cycles"));
-  }
-}
-
-TEST_CASE("encodings: all views, groups of other sizes, other numbers of units") {
-  for (const char* order : {"exact", "paper"}) {
-    Arguments six = settings({"hfus=6", "sram.input_bytes=32768", "hfu.second_half_slots=1",
-                              "codebook.latency_cycles=50"});
-    // Six parts of a square group there are not.
-    if (order == std::string("paper")) {
-      six = with_settings(six, {"fetch=split", "hfu.slice_gaussians=128"});
-    }
-    for (const Arguments& variant :
-         {Arguments{"--view", "all"}, settings({"hfus=1", "sorting_units=1"}), six,
-          settings({"group_width_px=16", "group_height_px=16", "hfu.coarse_filter=false"}),
-          settings({"storage.store_invisible=true", "clock_mhz=733"})}) {
-      INFO(order << " " << variant[1]);
-      Simulation(joined(encoded(order, "vq_packed", "builtin:outdoor?n=2000"), variant)).check();
-    }
-  }
-}
-
-TEST_CASE("encodings: SH of degree 0 has no codebook, a handful of Gaussians hardly any") {
-  const ScratchFolder scratch;
-  BuiltinScene scene = make_builtin_scene("builtin:object?n=2000");
-  std::vector<glm::vec3> constant_terms;
-  for (std::size_t i = 0; i < scene.cloud.size(); ++i) {
-    constant_terms.push_back(scene.cloud.sh_coeffs[16 * i]);
-  }
-  scene.cloud.sh_degree = 0;
-  scene.cloud.sh_coeffs = constant_terms;
-  write_cameras(scratch.path("cameras.json"), scene.cameras);
-  for (const std::size_t left : {2000U, 1U, 0U}) {
-    scene.cloud.resize(left, 0);
-    write_ply(scratch.path("scene.ply"), scene.cloud);
-    for (const char* order : {"exact", "paper"}) {
-      for (const char* encoding : {"half", "vq", "vq_packed"}) {
-        INFO(left << " " << order << " " << encoding);
-        const Simulation simulation(joined(encoded(order, encoding, scratch.path("scene.ply")),
-                                           {"--cameras", scratch.path("cameras.json")}));
-        simulation.check();
-        const Json& of = simulation.views()[0]["scene"]["codebooks"];
-        CHECK_FALSE(of.contains("sh"));
-        if (encoding == std::string("half")) continue;
-        CHECK(of.contains("rotation") == (left > 0));
-        if (left > 0) CHECK(of["rotation"]["entries"] == std::min<std::size_t>(left, 100));
-        const bool words = encoding == std::string("vq");
-        const int many = words ? 13 : 4;  // three indices; 8 + 6 + 7 + 8 bit
-        const int encoded_bytes = left > 1 ? many : 1;
-        // By chunks with the largest scale, in a power of two.
-        int by_chunks = 1;
-        while (by_chunks < encoded_bytes + 4) by_chunks *= 2;
-        CHECK(simulation.views()[0]["scene"]["second_half_bytes"] ==
-              (order == std::string("exact") ? by_chunks : encoded_bytes));
-      }
-    }
-  }
-}
-
-TEST_CASE("encodings: shapes of ratio 1e-10, scales of 10^7, opacities of 0 and 1, SH of 1e17") {
-  const ScratchFolder scratch;
-  BuiltinScene scene = make_builtin_scene("builtin:object?n=1000");
-  GaussianCloud& cloud = scene.cloud;
-  for (std::size_t i = 0; i < cloud.size(); i += 50) {
-    cloud.log_scales[i] = {-3, -26, -26};
-    cloud.log_scales[i + 1] = {16, -3, 16};
-    cloud.log_scales[i + 2] = {-200, -200, -200};
-    cloud.opacity_logits[i + 3] = 100;
-    cloud.opacity_logits[i + 4] = -200;
-    cloud.sh_coeffs[16 * (i + 5)] = glm::vec3(1e17F);
-    cloud.sh_coeffs[16 * (i + 6) + 3] = glm::vec3(-1e17F);
-  }
-  write_ply(scratch.path("scene.ply"), cloud);
-  write_cameras(scratch.path("cameras.json"), scene.cameras);
-  for (const char* order : {"exact", "paper"}) {
-    for (const char* encoding : {"raw", "half", "vq_packed"}) {
-      INFO(order << " " << encoding);
-      const Simulation simulation(joined(encoded(order, encoding, scratch.path("scene.ply")),
-                                         {"--cameras", scratch.path("cameras.json")}));
-      simulation.check();
-      CHECK(simulation.views()[0]["image"]["blends"].get<int>() > 1000);
-    }
-  }
-}
-
 TEST_CASE("encodings: cameras that weigh the Gaussians change codebooks, and are checked") {
   const Arguments common = encoded("exact", "vq", "builtin:outdoor?n=3000");
   const Simulation by_one(common), by_three(joined(common, {"--weigh-by", "1,2"}));
@@ -233,30 +121,6 @@ TEST_CASE("encodings: cameras that weigh the Gaussians change codebooks, and are
       joined(joined({"simulate"}, common), {"--weigh-by", "99", "--out", "/tmp/never"}));
   CHECK(refused.status == 2);
   CHECK(refused.err.find("--weigh-by: got 99") != std::string::npos);
-}
-
-TEST_CASE("encodings: codebooks that do not fit their buffer are refused with the sum") {
-  const ScratchFolder scratch;
-  const Outcome refused =
-      run_streaminggs(joined(joined({"simulate"}, encoded("exact", "vq")),
-                             {"--set", "sram.codebook_bytes=10527", "--out", scratch.path("out")}));
-  CHECK(refused.status == 2);
-  CHECK(refused.err.find("sram.codebook_bytes: 10527 bytes are there, expected at least 10528: "
-                         "scale 768 (64 entries x 12 B) + rotation 1600 (100 entries x 16 B) + "
-                         "dc 2400 (200 entries x 12 B) + sh 5760 (32 entries x 180 B)") !=
-        std::string::npos);
-  CHECK(scratch.file_count() == 0);
-  for (const char* setting :
-       {"storage.encoding=zip", "storage.vq.sh_entries=0", "storage.vq.dc_entries=65537",
-        "codebook.banks=65", "codebook.line_bytes=3", "codebook.latency_cycles=0"}) {
-    INFO(setting);
-    const Outcome outcome =
-        run_streaminggs(joined(joined({"simulate"}, encoded("exact", "vq")),
-                               {"--set", setting, "--out", scratch.path("out")}));
-    CHECK(outcome.status == 2);
-    CHECK(outcome.err.find(std::string(setting).substr(0, std::string(setting).find('='))) !=
-          std::string::npos);
-  }
 }
 
 }  // namespace

@@ -65,16 +65,6 @@ Counts count_frame(const Camera& camera, const ActivatedCloud& cloud, const Chun
 
 TEST_CASE("exact frames: hard scenes under random configurations") { fuzz_exact_frames(0, 40); }
 
-TEST_CASE("exact frames: built-in scenes under random configurations") {
-  std::mt19937_64 random(5);
-  for (int round = 0; round < 12; ++round) {
-    INFO("round " << round);
-    const Arguments scene = {round % 2 == 0 ? "builtin:object?n=4000" : "builtin:outdoor?n=5000",
-                             "--size", "129x73", "--view", std::to_string(round % 4)};
-    Simulation(joined(scene, random_exact_options(random))).check();
-  }
-}
-
 TEST_CASE("exact frames: bytes are counts times sizes, counted without the accelerator") {
   const BuiltinScene scene = make_builtin_scene("builtin:outdoor?n=6000");
   const ActivatedCloud in_file = activate(scene.cloud);
@@ -229,19 +219,6 @@ TEST_CASE("exact frames: what is spilled grows little faster than the keys") {
   }
 }
 
-TEST_CASE("exact frames: 20,000 Gaussians at one point, the buffer holds 64 keys") {
-  const ScratchFolder scratch;
-  write_ply(scratch.path("scene.ply"), at_one_point(20000));
-  write_cameras(scratch.path("cameras.json"), {small_camera()});
-  const Arguments arguments = {scratch.path("scene.ply"), "--cameras", scratch.path("cameras.json"),
-                               "--set", "merge.entries=64"};
-  Simulation(arguments).check();
-  const Simulation unfinished(with_settings(arguments, {"rendering.saturation_feedback=false"}));
-  unfinished.check();
-  CHECK(counter(unfinished.views()[0], "merge", "ties") ==
-        counter(unfinished.views()[0], "merge", "released") - 1);  // one group
-}
-
 TEST_CASE("exact frames: blend_early is lossy where the buffer is small, and says so") {
   const Arguments arguments =
       with_settings({"builtin:outdoor?n=8000", "--size", "160x90"},
@@ -278,33 +255,9 @@ TEST_CASE("exact frames: blend_early without the coarse filter, whose keys are o
   }
 }
 
-TEST_CASE("exact frames: what the report holds") {
+TEST_CASE("exact frames: the least that a frame could read") {
   const Simulation simulation({"builtin:object?n=2000", "--size", "80x45"});
   const Json& view = simulation.views()[0];
-  CHECK(view["config"]["machine"] == "exact");  // the default
-  for (const char* key : {"scene", "view", "image", "frame", "units", "binding", "dram", "limit",
-                          "left_out", "host", "provenance", "sram"}) {
-    INFO(key);
-    CHECK(view.contains(key));
-  }
-  CHECK(view["image"]["psnr_db"].is_null());  // equal pictures
-  CHECK(view["image"]["missed"] == 0);
-  CHECK(view["image"]["misordered"] == 0);
-  for (const char* name :
-       {"keys", "released", "forced_early", "due", "dropped_hidden", "dropped_saturated",
-        "pending_keys_max", "ties", "inserts", "delete_mins", "delete_maxs", "heap_nodes_read",
-        "heap_nodes_read_ahead", "heap_nodes_written", "heap_comparisons", "runs_spilled",
-        "keys_spilled"}) {
-    INFO(name);
-    CHECK(view["units"]["merge"]["counters"].contains(name));
-  }
-  for (const char* name :
-       {"nodes", "upper_nodes_opened", "nodes_read", "nodes_dropped", "tests", "visits",
-        "groups_saturated", "groups_empty", "chunk_queue_max", "node_queue_max",
-        "chunk_queue_operations", "node_queue_operations", "queue_entries_put_aside"}) {
-    INFO(name);
-    CHECK(view["units"]["vsu"]["counters"].contains(name));
-  }
   // Once each: what contributes, and the pixels.
   const std::uint64_t once =
       view["limit"]["contributing_gaussians"].get<std::uint64_t>() * (16 + 224) + 80 * 45 * 12;

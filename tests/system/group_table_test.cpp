@@ -85,20 +85,6 @@ TEST_CASE("groups: counts and bytes of all of them are the frame's") {
   }
 }
 
-TEST_CASE("groups: the order of processes changes no number") {
-  for (const char* config : {"exact", "paper"}) {
-    INFO(config);
-    const Arguments arguments =
-        with_settings({"builtin:outdoor?n=2000", "--size", "64x48", "--config", config},
-                      {"group_width_px=16", "group_height_px=16"});
-    const Simulation plain(arguments), shuffled(joined(arguments, {"--process-order", "5"}));
-    const auto groups = [](const Simulation& s) {
-      return read_groups(s.folder() + "/out/view_0/groups.csv");
-    };
-    CHECK(groups(plain) == groups(shuffled));
-  }
-}
-
 TEST_CASE("groups: those of an earlier run go where a machine has none") {
   ScratchFolder out;
   const Arguments scene = {"simulate", "builtin:object?n=500", "--size", "64x36"};

@@ -11,7 +11,6 @@
 namespace sgs::test {
 namespace {
 
-using Catch::Matchers::Contains;
 using Json = nlohmann::json;
 
 struct GscoreVariant {
@@ -107,17 +106,6 @@ TEST_CASE("gscore: the lossless preset gives the reference picture") {
   }
 }
 
-TEST_CASE("gscore: frames and scenes of every size") {
-  for (const char* size : {"1x1", "200x1", "1x200", "3x5", "320x180"}) {
-    INFO(size);
-    Simulation({"builtin:object?n=2000", "--size", size, "--config", "gscore"}).check();
-  }
-  for (const char* scene : {"builtin:object?n=1", "builtin:object?n=30"}) {
-    INFO(scene);
-    Simulation({scene, "--size", "64x48", "--config", "gscore"}).check();
-  }
-}
-
 TEST_CASE("gscore: a real scene") {
   const Arguments truck = {shared_scene("truck"),
                            "--cameras",
@@ -129,23 +117,6 @@ TEST_CASE("gscore: a real scene") {
   const Simulation plain(truck);
   plain.check();
   CHECK(plain.views()[0]["image"]["psnr_db"] > 35.0);
-}
-
-TEST_CASE("gscore: what cannot be built is refused") {
-  const ScratchFolder scratch;
-  const auto refused = [&](const char* setting) {
-    const Outcome outcome =
-        run_streaminggs({"simulate", "builtin:object?n=3000", "--size", "64x48", "--config",
-                         "gscore", "--set", setting, "--out", scratch.path("out")});
-    CHECK(outcome.status == 2);
-    return outcome.err;
-  };
-  CHECK_THAT(refused("storage.encoding=vq"), Contains("machine gscore has no codebooks"));
-  CHECK_THAT(refused("tiles.subtiles_across=3"), Contains("expected 1, 2 or 4"));
-  CHECK_THAT(refused("lists.line_bytes=48"), Contains("power of two"));
-  CHECK_THAT(refused("lists.lines=8192"), Contains("sram.buffer_bytes: 278528 bytes are there"));
-  CHECK_THAT(refused("lists.pool_bytes=4096"), Contains("one tile may list all 3000 Gaussians"));
-  CHECK_THAT(refused("sorting.list_entries=128"), Contains("at least a chunk"));
 }
 
 }  // namespace

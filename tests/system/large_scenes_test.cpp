@@ -9,42 +9,26 @@
 namespace sgs::test {
 namespace {
 
-TEST_CASE("shared scenes: truck, paper order, no stalls", "[nightly]") {
-  check_shared_scene("truck", "paper", {kPlain});
+void plain(const char* scene, const char* preset) { check_shared_scene(scene, preset, {kPlain}); }
+void stalled_too(const char* scene, const char* preset) {
+  check_shared_scene(scene, preset, {kPlain, kStalled});
 }
-TEST_CASE("shared scenes: truck, exact order, no stalls", "[nightly]") {
-  check_shared_scene("truck", "exact", {kPlain});
-}
+TEST_CASE("shared scenes: truck, paper order, no stalls", "[nightly]") { plain("truck", "paper"); }
+TEST_CASE("shared scenes: truck, exact order, no stalls", "[nightly]") { plain("truck", "exact"); }
 TEST_CASE("shared scenes: playbot, paper order, no stalls", "[nightly]") {
-  check_shared_scene("playbot", "paper", {kPlain});
+  plain("playbot", "paper");
 }
 TEST_CASE("shared scenes: playbot, exact order, no stalls", "[nightly]") {
-  check_shared_scene("playbot", "exact", {kPlain});
+  plain("playbot", "exact");
 }
-TEST_CASE("shared scenes: platform, paper order", "[nightly]") {
-  check_shared_scene("platform", "paper", {kPlain, kStalled});
-}
-TEST_CASE("shared scenes: platform, exact order", "[nightly]") {
-  check_shared_scene("platform", "exact", {kPlain, kStalled});
-}
-TEST_CASE("shared scenes: yard, paper order", "[nightly]") {
-  check_shared_scene("yard", "paper", {kPlain, kStalled});
-}
-TEST_CASE("shared scenes: yard, exact order", "[nightly]") {
-  check_shared_scene("yard", "exact", {kPlain, kStalled});
-}
-TEST_CASE("shared scenes: garden, paper order", "[nightly]") {
-  check_shared_scene("garden", "paper", {kPlain, kStalled});
-}
-TEST_CASE("shared scenes: garden, exact order", "[nightly]") {
-  check_shared_scene("garden", "exact", {kPlain, kStalled});
-}
-TEST_CASE("shared scenes: park, paper order", "[nightly]") {
-  check_shared_scene("park", "paper", {kPlain, kStalled});
-}
-TEST_CASE("shared scenes: park, exact order", "[nightly]") {
-  check_shared_scene("park", "exact", {kPlain, kStalled});
-}
+TEST_CASE("shared scenes: platform, paper order", "[nightly]") { stalled_too("platform", "paper"); }
+TEST_CASE("shared scenes: platform, exact order", "[nightly]") { stalled_too("platform", "exact"); }
+TEST_CASE("shared scenes: yard, paper order", "[nightly]") { stalled_too("yard", "paper"); }
+TEST_CASE("shared scenes: yard, exact order", "[nightly]") { stalled_too("yard", "exact"); }
+TEST_CASE("shared scenes: garden, paper order", "[nightly]") { stalled_too("garden", "paper"); }
+TEST_CASE("shared scenes: garden, exact order", "[nightly]") { stalled_too("garden", "exact"); }
+TEST_CASE("shared scenes: park, paper order", "[nightly]") { stalled_too("park", "paper"); }
+TEST_CASE("shared scenes: park, exact order", "[nightly]") { stalled_too("park", "exact"); }
 
 // The encodings that the presets above do not have, all views.
 void check_encodings(const char* scene) {

@@ -56,6 +56,9 @@ TEST_CASE("left out: what lies behind finished groups and sub-tiles") {
             return counter(b, "vsu", "visits") - counter(a, "vsu", "visits");
           },
           sum("first_halves")}});
+  const Json view = Simulation(scene.arguments("paper_no_vq", whole)).views()[0];
+  CHECK(left_out(view, "saturated_gaussians") + left_out(view, "saturated_tests") ==
+        total(view, "dropped_saturated"));
 }
 
 TEST_CASE("left out: sorts of one") {

@@ -87,15 +87,6 @@ TEST_CASE("refusals: a pipeline shorter than its schedule, a loop longer than it
                     {"hfu.cfu_depth_cycles: got 99 with hfu.coarse_filter=false", "expected 0"});
 }
 
-TEST_CASE("refusals: none of a unit") {
-  for (const char* order : {"paper", "exact"}) {
-    check_set_refused(order, {"hfus=0"}, {"hfus", "0"});
-    check_set_refused(order, {"sorting_units=0"}, {"sorting_units", "0"});
-    check_set_refused(order, {"rendering.clusters=0"}, {"rendering.clusters", "0"});
-    check_set_refused(order, {"dram.channels=0"}, {"dram.channels", "0"});
-  }
-}
-
 TEST_CASE("refusals: keys, types, ranges and combinations") {
   check_set_refused("paper", {"grop_px=32"}, {"grop_px"});
   check_set_refused("paper", {"group_width_px=big"}, {"group_width_px"});
@@ -140,6 +131,11 @@ TEST_CASE("refusals: keys, types, ranges and combinations") {
                     {"vsu.sample_step_voxels: got 1e-07, expected at least", "the scene reaches"});
   check_set_refused("paper", {"vsu.table_bytes=8"},
                     {"vsu.table_bytes: got 8, expected at least 16", "vsu.table_banks 2"});
+  check_set_refused("gscore", {"storage.encoding=vq"}, {"machine gscore has no codebooks"});
+  check_set_refused("gscore", {"tiles.subtiles_across=3"}, {"expected 1, 2 or 4"});
+  check_set_refused("gscore", {"lists.line_bytes=48"}, {"power of two"});
+  check_set_refused("gscore", {"lists.lines=8192"}, {"sram.buffer_bytes: 278528 bytes are there"});
+  check_set_refused("gscore", {"sorting.list_entries=128"}, {"at least a chunk"});
   check_set_refused("gscore", {"lists.pool_bytes=99999999999"},
                     {"dram: the scene and its frame take", "tile_lists alone 99999999999", "hold"});
   check_set_refused("paper", {"dram.memspec=ddr9"},
@@ -159,44 +155,6 @@ TEST_CASE("refusals: what every view refuses, in one line") {
                      "--config", "gscore", "--set", "lists.pool_bytes=4096"},
                     {"view 0: --set lists.pool_bytes=4096: lists.pool_bytes: got 4096",
                      "none of 5 views can be drawn"});
-}
-
-TEST_CASE("refusals: scenes, cameras and sizes that are not there") {
-  check_not_started({"simulate", "/no/such/scene.ply", "--cameras", "/no/such/cameras.json"},
-                    {"/no/such/scene.ply"});
-  check_not_started({"simulate", "builtin:castle"}, {"castle"});
-  check_not_started({"simulate", "builtin:object?n=0"}, {"n="});
-  check_not_started({"simulate", "builtin:object?n=100", "--cameras", "/no/such/cameras.json"},
-                    {"/no/such/cameras.json"});
-  check_not_started({"simulate", "builtin:object?n=100", "--view", "99"},
-                    {"--view: got '99', expected all"});
-  check_not_started({"simulate", "builtin:object?n=100", "--view", "0,99"},
-                    {"--view 0,99: got '99', expected all"});
-  check_not_started({"simulate", SGS_TECHNOLOGY},
-                    {"got the extension \".json\", expected a scene (.ply, .spz, ",
-                     "builtin:NAME?n=COUNT, or a .sgs file made by pack"});
-  check_not_started({"simulate", "builtin:object?n=100", "--size", "64"},
-                    {"--size", "WIDTHxHEIGHT"});
-  check_not_started({"simulate", "builtin:object?n=100", "--size", "0x64"}, {"--size"});
-}
-
-TEST_CASE("refusals: bad arguments exit with 2 and say which") {
-  for (const Arguments& arguments :
-       {Arguments{},
-        {"fly"},
-        {"simulate"},
-        {"simulate", "builtin:object", "--no-such-option"},
-        {"simulate", "builtin:object", "--process-order", "x", "--out", "/tmp/never"},
-        {"simulate", "builtin:object", "--stalls", "2", "--out", "/tmp/never"},
-        {"compare", "one.png"},
-        {"render", "builtin:object"}}) {
-    const Outcome outcome = run_streaminggs(arguments);
-    INFO(outcome.err);
-    CHECK(outcome.status == 2);
-    CHECK_FALSE(outcome.err.empty());
-  }
-  CHECK(run_streaminggs({"--help"}).status == 0);
-  CHECK(run_streaminggs({"simulate", "--help"}).status == 0);
 }
 
 }  // namespace

@@ -45,36 +45,6 @@ Arguments in_order(const char* order) {
   return all;
 }
 
-TEST_CASE("savings: Gaussians that no view can show are not stored") {
-  // Voxels so large that each holds something visible: a voxel of its own would join the graph of a
-  // group's rays and could change the order of others that no ray had put in order. Whole, since
-  // what is stored decides where a voxel is cut.
-  Arguments paper = in_order("paper");
-  paper = with_settings(paper, {"storage.voxel_size=100", "vsu.visit_gaussians=0"});
-  // Of views without equal depths: slots, which order them, follow from what is stored.
-  const Pair by_voxels(paper, "storage.store_invisible=true");
-  by_voxels.check_more([](const Json& v) { return total(v, "first_halves"); });
-  // What reaches nothing lies in chunks of its own, which no group visits.
-  const Pair by_chunks(in_order("exact"), "storage.store_invisible=true");
-  by_chunks.check_more([](const Json& v) { return v["scene"]["chunks"].get<std::uint64_t>(); });
-  CHECK(Pair::sum(by_chunks.with, [](const Json& v) { return total(v, "ties"); }) == 0);
-}
-
-TEST_CASE("savings: a list of one splat is not sent through the network") {
-  const Pair pair(in_order("paper"), "sorting.skip_trivial=false");
-  pair.check_more([](const Json& v) { return total(v, "compare_exchanges"); });
-}
-
-TEST_CASE("savings: finished groups are reported back") {
-  for (const char* order : {"paper", "exact"}) {
-    const Pair pair({"builtin:object?n=30000", "--size", "160x90", "--set", "group_width_px=16",
-                     "--set", "group_height_px=16", "--config", order},
-                    "rendering.saturation_feedback=false");
-    pair.check_more([](const Json& v) { return v["dram"]["bytes"].get<std::uint64_t>(); });
-    pair.check_more([](const Json& v) { return total(v, "second_halves"); });
-  }
-}
-
 TEST_CASE("savings: the coarse filter spares second halves") {
   for (const char* order : {"paper", "exact"}) {
     const Pair pair(in_order(order), "hfu.coarse_filter=false");

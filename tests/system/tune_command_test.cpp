@@ -58,18 +58,6 @@ TEST_CASE("tune: visits are told of in paper order, where there are some") {
   }
 }
 
-TEST_CASE("tune: photographs of a data set as the target") {
-  const ScratchFolder scratch;
-  write_nerf_synthetic(scratch.path("d"), made_scene());
-  const ShellOutcome made =
-      shell(scratch,
-            "$SG train d --steps 60 --gaussians 300 --out s.ply && $SG tune s.ply --boundary "
-            "--data d --steps 5 --out t.ply");
-  INFO(made.out << made.err);
-  CHECK(made.status == 0);
-  CHECK(made.out.find("photographs of d, ") != std::string::npos);
-}
-
 TEST_CASE("tune: the pictures of another scene as the target") {
   const ScratchFolder scratch;
   const ShellOutcome made = shell(
@@ -185,20 +173,6 @@ TEST_CASE("tune: what learned too fast goes on with a smaller rate") {
       "than a scene may hold; the last good state is in t.ply.checkpoint; to go on: --resume it "
       "with a smaller --rate\n";
   CHECK(made.err.find(failed) != made.err.rfind(failed));
-}
-
-TEST_CASE("tune: what would leave the limits of scenes stops it, and what is left can be read") {
-  const ScratchFolder scratch;
-  const ShellOutcome made =
-      shell(scratch,
-            "$SG tune $B --boundary --rate 1000 --steps 300 --out t.ply --log l.csv; echo status "
-            "$?; ls; cat l.csv");
-  INFO(made.out << made.err);
-  CHECK(made.out.find("status 1\n") != std::string::npos);
-  CHECK(made.out.find("t.ply.checkpoint\n") != std::string::npos);
-  CHECK(made.out.find("step,seconds") != std::string::npos);
-  CHECK(made.err.find("than a scene may hold; the last good state is in t.ply.checkpoint") !=
-        std::string::npos);
 }
 
 TEST_CASE("tune: Ctrl-C saves, and says how to go on") {

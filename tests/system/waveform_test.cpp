@@ -201,16 +201,5 @@ TEST_CASE("waveform: quantised scenes show the codebook buffer and what decodes"
   }
 }
 
-TEST_CASE("waveform: tracing changes nothing") {
-  const ScratchFolder scratch;
-  for (const char* machine : {"exact", "paper", "gscore"}) {
-    const Arguments plain = {"builtin:object?n=1000", "--size", "48x27", "--config", machine};
-    const Simulation a(plain), b(joined(plain, {"--vcd", scratch.path("wave.vcd")}));
-    CHECK(a.views()[0]["frame"] == b.views()[0]["frame"]);
-    CHECK(a.views()[0]["units"] == b.views()[0]["units"]);
-    CHECK(a.views()[0]["dram"] == b.views()[0]["dram"]);
-  }
-}
-
 }  // namespace
 }  // namespace sgs::test

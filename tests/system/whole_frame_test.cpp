@@ -49,30 +49,6 @@ TEST_CASE("whole frame: the same pixels with and without stalls") {
   }
 }
 
-TEST_CASE("whole frame: equal seeds give equal cycles") {
-  const Arguments arguments = {"builtin:object?n=3000", "--size", "64x36", "--stalls", "0.2"};
-  CHECK(frame_cycles(Simulation(arguments).views()[0]) ==
-        frame_cycles(Simulation(arguments).views()[0]));
-}
-
-TEST_CASE("whole frame: groups of 4 to 320 px, most of them no divisor of the frame") {
-  for (const char* order : {"paper", "exact"}) {
-    for (const auto& [width, height] : {std::pair{"4", "4"},
-                                        {"4", "64"},
-                                        {"12", "28"},
-                                        {"28", "12"},
-                                        {"64", "64"},
-                                        {"160", "120"},
-                                        {"320", "180"}}) {
-      INFO(order << " " << width << " x " << height);
-      Simulation(joined(joined({"builtin:object?n=2000", "--size", "67x45", "--config", order},
-                               group_of(width, height)),
-                        roomy(order)))
-          .check();
-    }
-  }
-}
-
 // What the shortest borders are is tested in group_for_frame_test.cpp.
 TEST_CASE("whole frame: groups that are left to the model cut the frame evenly") {
   for (const char* order : {"paper", "exact"}) {
@@ -103,51 +79,6 @@ TEST_CASE("whole frame: pixels in half where parts of a group meet") {
                                {"storage.encoding=raw", "fetch=shared", std::string("hfus=") + hfus,
                                 std::string("rendering.precision=") + precision}),
                  joined(group_of(width, height), roomy("paper"))))
-          .check();
-    }
-  }
-}
-
-TEST_CASE("whole frame: frames of one pixel, one row and one column") {
-  for (const char* order : {"paper", "exact"}) {
-    for (const char* size : {"1x1", "200x1", "1x200", "3x5"}) {
-      INFO(order << " " << size);
-      Simulation({"builtin:object?n=2000", "--size", size, "--config", order}).check();
-    }
-  }
-}
-
-TEST_CASE("whole frame: voxels and chunks from tiny to all") {
-  for (const char* size : {"0.02", "0.1", "0.7", "1000"}) {
-    INFO(size);
-    Simulation(joined({"builtin:object?n=1500", "--size", "48x27", "--config", "paper", "--set",
-                       std::string("storage.voxel_size=") + size},
-                      roomy("paper")))
-        .check();
-  }
-  for (const char* chunk : {"1", "7", "64"}) {
-    INFO(chunk);
-    Simulation(joined({"builtin:object?n=1500", "--size", "48x27", "--config", "exact", "--set",
-                       std::string("storage.chunk_gaussians=") + chunk},
-                      roomy("exact")))
-        .check();
-  }
-}
-
-TEST_CASE("whole frame: other numbers of units, ports and memory channels") {
-  for (const char* order : {"paper", "exact"}) {
-    for (const Arguments& variant :
-         {settings({"hfus=1", "sorting_units=1"}),
-          order == std::string("paper") ? settings({"hfus=3", "fetch=split", "sorting_units=5"})
-                                        : settings({"hfus=3", "sorting_units=5"}),
-          settings({"memory_port.max_outstanding=1", "dram.channels=1"}),
-          Arguments{"--set", "clock_mhz=733"},
-          settings({"hfu.cfus=1", "hfu.second_half_slots=1", "hfu.candidate_fifo_entries=1"}),
-          Arguments{"--set", "hfu.coarse_filter=false"}}) {
-      INFO(order << " " << variant[1]);
-      Simulation(
-          joined(joined({"builtin:object?n=1500", "--size", "48x27", "--config", order}, variant),
-                 roomy(order)))
           .check();
     }
   }
@@ -194,20 +125,6 @@ TEST_CASE("whole frame: sampled rays, paper order") {
   CHECK(counter(edges.views()[0], "vsu", "adjacency_lines_back") > 0);
 }
 
-TEST_CASE("whole frame: eight bits are the floats, rounded") {
-  const ScratchFolder scratch;
-  const Outcome outcome =
-      run_streaminggs({"simulate", "builtin:object?n=2000", "--size", "64x36", "--config", "paper",
-                       "--set", "framebuffer=rgb8", "--out", scratch.path("out")});
-  CHECK(outcome.status == 0);
-  const auto report = nlohmann::json::parse(bytes_of(scratch.path("out/report.json")));
-  CHECK(report["views"][0]["image"]["equals_streaming_renderer"] == true);
-  const nlohmann::json& view = report["views"][0];
-  CHECK(region_bytes(view, "frame_buffer", "write") == 64 * 36 * 3);
-  CHECK(view["frame"]["width_px"] == 64);
-  CHECK(view["frame"]["height_px"] == 36);
-}
-
 TEST_CASE("whole frame: the report names the camera and the table that prices were taken from") {
   const ScratchFolder scratch;
   std::vector<Camera> cameras = make_builtin_scene("builtin:object?n=300").cameras;
@@ -230,33 +147,6 @@ TEST_CASE("whole frame: the report names the camera and the table that prices we
   const std::string shipped = bytes_of(SGS_TECHNOLOGY);
   CHECK(provenance_with(shipped) == provenance_with(shipped));
   CHECK(provenance_with(shipped) != provenance_with(shipped + "\n"));
-}
-
-TEST_CASE("whole frame: the golden image of `render` is the frame of `simulate`") {
-  for (const std::string order : {"paper", "exact"}) {
-    const std::string preset = order == "paper" ? "paper_no_vq" : order;
-    const Simulation simulated(
-        with_settings({"builtin:object?n=3000", "--size", "100x60", "--config", preset},
-                      {"group_width_px=64", "group_height_px=64", "sram.shared_bytes=1073741824"}));
-    const ScratchFolder scratch;
-    const std::string frame = simulated.folder() + "/out/view_0/frame.exr";
-    const Arguments render = {"render", "builtin:object?n=3000", "--size",    "100x60",
-                              "--out",  scratch.path("g.exr"),   "--ordering"};
-    const Arguments as_simulated =
-        with_settings({order, "--config", preset},
-                      {"group_width_px=64", "group_height_px=64", "sram.shared_bytes=1073741824"});
-    REQUIRE(run_streaminggs(joined(render, as_simulated)).status == 0);
-    CHECK(run_streaminggs({"compare", "--exact", frame, scratch.path("g.exr")}).status == 0);
-    // Exact order is the reference's, to the bit.
-    REQUIRE(run_streaminggs(joined(render, {"reference"})).status == 0);
-    CHECK(run_streaminggs({"compare", "--exact", frame, scratch.path("g.exr")}).status ==
-          (order == "exact" ? 0 : 1));
-    // And it is a picture: not the one of another view.
-    const Outcome other = run_streaminggs({"render", "builtin:object?n=3000", "--size", "100x60",
-                                           "--view", "1", "--out", scratch.path("h.exr")});
-    REQUIRE(other.status == 0);
-    CHECK(run_streaminggs({"compare", "--exact", frame, scratch.path("h.exr")}).status == 1);
-  }
 }
 
 }  // namespace

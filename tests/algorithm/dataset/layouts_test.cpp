@@ -163,19 +163,6 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("dataset: transparent pixels give a smaller picture their share, not their colour") {
-  const ScratchFolder scratch;
-  write_nsvf_matrix(scratch.path(""), made_scene());
-  RgbaImage image(64, 48);
-  for (int x = 0; x < 64; x += 2) {
-    for (int y = 0; y < 48; ++y) image.at(x, y) = {1, 0.2f, 0, 1};
-  }
-  write_file(scratch.path(""), "rgb/0_0000.png", rgba_png(image));
-  const Dataset dataset = open_dataset(scratch.path(""), {2, "", ""});
-  const RgbaImage half = load_view(dataset.views[0]);
-  for (const glm::vec4& pixel : half.pixels) CHECK(pixel == glm::vec4(0.5f, 0.1f, 0, 0.5f));
-}
-
 TEST_CASE("dataset: start points that transforms.json names, in text and binary") {
   const std::string head = "ply\nformat ";
   const std::string properties =
@@ -317,20 +304,6 @@ TEST_CASE("dataset: images may be named by their whole path") {
   const Dataset dataset = open_dataset(scratch.path(""));
   REQUIRE(dataset.views.size() == 10);
   CHECK(dataset.views[0].image_path == elsewhere.path("a.png"));
-}
-
-TEST_CASE("dataset: scaled intrinsics keep the field of view") {
-  const ScratchFolder scratch;
-  write_cameras_json(scratch.path(""), made_scene());
-  const Dataset dataset = open_dataset(scratch.path(""));
-  for (const double downscale : {1.0, 1.5, 2.0, 4.0, 8.0, 7.0, 1e6}) {
-    const Camera camera = downscaled_camera(dataset.views[0], downscale);
-    CHECK(camera.width == std::max(1, static_cast<int>(std::lround(64 / downscale))));
-    CHECK(camera.height == std::max(1, static_cast<int>(std::lround(48 / downscale))));
-    CHECK(camera.focal_x / camera.width == Approx(60.0 / 64));
-    CHECK(camera.focal_y / camera.height == Approx(60.0 / 48));
-    CHECK(load_view(dataset.views[0], downscale).width == camera.width);
-  }
 }
 
 TEST_CASE("dataset: images.txt without lines of points, with some of them, with comments between") {

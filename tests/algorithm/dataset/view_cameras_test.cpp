@@ -91,22 +91,6 @@ TEST_CASE("view cameras: of all layouts, as files and as folders, without their 
   check_made(read_view_cameras(scratch.write("path.json", path_of(scene))), scene);
 }
 
-TEST_CASE("view cameras: a principal point anywhere in the picture stays where it is") {
-  PhotographedScene scene = made_scene();
-  for (const glm::dvec2 principal : {glm::dvec2(20.25, 30.5), {64, 0}, {32.3, 24}}) {
-    scene.principal = principal;
-    for (const auto& write :
-         {write_colmap_binary, write_colmap_text, write_transforms, write_nsvf_focal}) {
-      const ScratchFolder scratch;
-      write(scratch.path(""), scene);
-      const bool nsvf = write == write_nsvf_focal;
-      check_made(read_view_cameras(scratch.path("")), scene,
-                 nsvf ? std::vector<std::size_t>{0, 1, 2, 3, 4, 5, 8, 9}
-                      : std::vector<std::size_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
-    }
-  }
-}
-
 TEST_CASE("view cameras: a file keeps its order, a folder has that of the data set") {
   PhotographedScene scene = made_scene();
   const ScratchFolder scratch;

@@ -174,23 +174,6 @@ TEST_CASE("png: values are those stored, whatever the file says of gamma and col
   }
 }
 
-TEST_CASE("png: cut anywhere before its last pixel it is refused by name") {
-  const test::ScratchFolder scratch;
-  std::vector<std::uint8_t> noise;
-  for (unsigned i = 0; i < 16 * 16 * 4; ++i) {
-    noise.push_back(static_cast<std::uint8_t>(i * 2654435761u >> 24));
-  }
-  write_raw_png(scratch.path("a.png"), 16, 16, 8, PNG_COLOR_TYPE_RGBA, noise);
-  const std::string whole = test::bytes_of(scratch.path("a.png"));
-  constexpr std::size_t kEndBytes = 12;      // the chunk IEND
-  constexpr std::size_t kChecksumBytes = 8;  // of the chunk and of the packed pixels
-  for (std::size_t size = 0; size < whole.size() - kEndBytes - kChecksumBytes; ++size) {
-    const std::string path = scratch.write("cut.png", whole.substr(0, size));
-    INFO(size);
-    CHECK_THAT(test::input_error_of([&] { read_png_rgba(path); }), Contains("cut.png: "));
-  }
-}
-
 TEST_CASE("png: grey, palette, 16 bits, interlaced") {
   const test::ScratchFolder scratch;
   const std::string path = scratch.path("a.png");

@@ -1,4 +1,4 @@
-// Records as storage orders divide them: sizes, and that every encoding comes back to the bit.
+// Records as storage orders divide them: every encoding comes back to the bit.
 #include "algorithm/memory/record_split.h"
 
 #include <catch2/catch.hpp>
@@ -14,40 +14,6 @@ namespace sgs {
 namespace {
 
 using Encoding = SecondHalfEncoding;
-
-TEST_CASE("record split: published halves are the paper's") {
-  for (int degree = 0; degree <= 3; ++degree) {
-    for (const Encoding encoding : {Encoding::kRaw, Encoding::kHalf}) {
-      const SecondHalfFormat format{encoding, degree, {}};
-      const RecordSplit split = published_split(format);
-      CHECK(split.first_bytes() == kFirstHalfBytes);
-      CHECK(split.second_bytes == format.bytes());
-      CHECK(split.bound_by == CoarseBoundBy::kLargestScale);
-    }
-  }
-}
-
-TEST_CASE("record split: by bursts, the table of sizes") {
-  struct Sizes {
-    SecondHalfFormat format;
-    std::uint32_t first, second;
-  };
-  for (const Sizes& expected :
-       {Sizes{{Encoding::kRaw, 0, {}}, 24, 32}, Sizes{{Encoding::kRaw, 1, {}}, 16, 80},
-        Sizes{{Encoding::kRaw, 2, {}}, 24, 128}, Sizes{{Encoding::kRaw, 3, {}}, 16, 224},
-        Sizes{{Encoding::kHalf, 0, {}}, 16, 32}, Sizes{{Encoding::kHalf, 1, {}}, 16, 48},
-        Sizes{{Encoding::kHalf, 2, {}}, 16, 72}, Sizes{{Encoding::kHalf, 3, {}}, 16, 128},
-        Sizes{{Encoding::kVq, 3, {4096, 4096, 4096, 512}}, 16, 32},
-        Sizes{{Encoding::kVqPacked, 3, {4096, 4096, 4096, 512}}, 16, 16},
-        Sizes{{Encoding::kVqPacked, 3, {16, 4, 4, 1}}, 16, 8}}) {
-    const RecordSplit split = burst_split(expected.format);
-    CHECK(split.first_bytes() == expected.first);
-    CHECK(split.second_bytes == expected.second);
-    // The largest scale moves to the payload; a word less where the quaternion is short.
-    const std::uint32_t needed = 12 + 4 + 4 + expected.format.bytes();
-    CHECK(expected.first + expected.second + (split.short_quaternion ? 4 : 0) >= needed);
-  }
-}
 
 Gaussian<float> random_gaussian(std::mt19937& random) {
   const auto uniform = [&](double low, double high) {

@@ -1,5 +1,4 @@
-// What lies where: regions apart from each other, the tables of each order, and the places that
-// scenes have always been stored at.
+// What lies where: regions apart from each other, and the tables of each order.
 #include "algorithm/memory/scene_layout.h"
 
 #include <catch2/catch.hpp>
@@ -8,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "algorithm/memory/frame_buffer.h"
 #include "algorithm/voxel/chunk_node.h"
 
 namespace sgs {
@@ -57,129 +55,6 @@ TEST_CASE("regions: addresses are base plus record size times number, beyond 4 G
   CHECK(part.region == 3);
   CHECK(part.base == 16384);
   CHECK(part.end() == 16384 + 512);
-}
-
-// DRAM timing follows from where things lie, so the places are held fast.
-struct Place {
-  const char* name;
-  std::uint64_t base, bytes;
-};
-struct Stored {
-  const char* what;
-  SceneLayout layout;
-  std::uint64_t spill_bytes, pixels;  // of a frame in rgb8
-  std::vector<Place> places;
-};
-
-TEST_CASE("scene layout: every region where it has always been") {
-  const SecondHalfFormat raw{Encoding::kRaw, 3, {}};
-  const SecondHalfFormat vq{Encoding::kVq, 3, {4096, 4096, 4096, 512}};
-  const VoxelFrame frame{2, {1, 2, 3}, 4};
-  const std::vector<Stored> all = {
-      {"chunks, raw",
-       lay_out_chunks(raw, 251234, 2305, 16123),
-       14123456,
-       640 * 360,
-       {{"first_halves", 0, 4019744},
-        {"second_halves", 4022272, 56276416},
-        {"codebooks", 60301312, 0},
-        {"chunk_table", 60301312, 295040},
-        {"spill", 60600320, 14123456},
-        {"frame_buffer", 74727424, 691200}}},
-      {"chunks, vq",
-       lay_out_chunks(vq, 251234, 2305, 16123),
-       14123456,
-       640 * 360,
-       {{"first_halves", 0, 4019744},
-        {"second_halves", 4022272, 8039488},
-        {"codebooks", 12062720, 256000},
-        {"chunk_table", 12320768, 295040},
-        {"spill", 12619776, 14123456},
-        {"frame_buffer", 26746880, 691200}}},
-      {"chunks, vq_packed, no SH",
-       lay_out_chunks({Encoding::kVqPacked, 0, {4096, 4000, 17, 0}}, 251234, 2305, 16123),
-       1,
-       640 * 360 + 1,
-       {{"first_halves", 0, 4019744},
-        {"second_halves", 4022272, 4019744},
-        {"codebooks", 8044544, 113356},
-        {"chunk_table", 8159232, 295040},
-        {"spill", 8458240, 1},
-        {"frame_buffer", 8462336, 691203}}},
-      {"chunks, half, whole rows",
-       lay_out_chunks({Encoding::kHalf, 1, {}}, 256, 32, 16),
-       0,
-       1024,
-       {{"first_halves", 0, 4096},
-        {"second_halves", 4096, 12288},
-        {"codebooks", 16384, 0},
-        {"chunk_table", 16384, 4096},
-        {"spill", 20480, 0},
-        {"frame_buffer", 20480, 3072}}},
-      {"voxels, vq",
-       lay_out_voxels(vq, 1763452, frame, 901, 30011),
-       1410240,
-       640 * 360,
-       {{"voxel_table", 0, 474936},
-        {"first_halves", 475136, 28215232},
-        {"second_halves", 28692480, 29978684},
-        {"codebooks", 58675200, 256000},
-        {"spill", 58933248, 1410240},
-        {"frame_buffer", 60346368, 691200}}},
-      {"voxels, raw",
-       lay_out_voxels({Encoding::kRaw, 2, {}}, 1763452, frame, 901, 30011),
-       1410240,
-       1280 * 720,
-       {{"voxel_table", 0, 474936},
-        {"first_halves", 475136, 28215232},
-        {"second_halves", 28692480, 239829472},
-        {"codebooks", 268525568, 0},
-        {"spill", 268525568, 1410240},
-        {"frame_buffer", 269938688, 2764800}}},
-      {"nothing, by voxels",
-       lay_out_voxels({}, 0, {}, 0, 0),
-       0,
-       100,
-       {{"voxel_table", 0, 0},
-        {"first_halves", 0, 0},
-        {"second_halves", 0, 0},
-        {"codebooks", 0, 0},
-        {"spill", 0, 0},
-        {"frame_buffer", 0, 300}}},
-      {"nothing, by chunks",
-       lay_out_chunks({}, 0, 0, 0),
-       0,
-       100,
-       {{"first_halves", 0, 0},
-        {"second_halves", 0, 0},
-        {"codebooks", 0, 0},
-        {"chunk_table", 0, 0},
-        {"spill", 0, 0},
-        {"frame_buffer", 0, 300}}},
-      {"a thousand, by file, vq_packed",
-       lay_out_file({Encoding::kVqPacked, 1, {16, 8, 4, 2}}, 1000),
-       0,
-       100,
-       {{"first_halves", 0, 16000},
-        {"second_halves", 16384, 8000},
-        {"codebooks", 24576, 440},
-        {"spill", 28672, 0},
-        {"frame_buffer", 28672, 300}}}};
-  for (const Stored& stored : all) {
-    INFO(stored.what);
-    Regions regions = stored.layout.regions;
-    CHECK(stored.layout.stored_bytes == stored.places[regions.size()].base);
-    regions.add("spill", stored.spill_bytes);
-    regions.add_records("frame_buffer", pixel_bytes(FrameFormat::kRgb8), stored.pixels);
-    REQUIRE(regions.size() == stored.places.size());
-    for (std::size_t id = 0; id < regions.size(); ++id) {
-      const Region& region = regions[static_cast<RegionId>(id)];
-      INFO(region.name);
-      CHECK(region.name == stored.places[id].name);
-      CHECK(region.base == stored.places[id].base);
-      CHECK(region.bytes == stored.places[id].bytes);
-    }
-  }
 }
 
 // A table's records lie in its region, and carry its number.

@@ -1,9 +1,8 @@
-// Encodings of second halves: sizes, layouts by hand, what comes back and how far off it is.
+// Encodings of second halves: sizes, what comes back, and how far off it is.
 #include "algorithm/memory/second_half.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <random>
 #include <vector>
@@ -42,16 +41,6 @@ TEST_CASE("second half: bytes of a record by encoding and degree") {
   CHECK(SecondHalfFormat{Encoding::kVq, 3, {1, 1, 1, 1}}.bytes() == 1);
   CHECK(SecondHalfFormat{Encoding::kVqPacked, 3, {1, 1, 1, 1}}.bytes() == 1);
   CHECK(SecondHalfFormat{Encoding::kVq, 3, {1, 7, 1, 1}}.bytes() == 5);
-}
-
-TEST_CASE("second half: bits of an index") {
-  const std::pair<std::uint32_t, std::uint32_t> expected[] = {
-      {0, 0},   {1, 0},    {2, 1},     {3, 2},     {4, 2},     {5, 3},
-      {512, 9}, {513, 10}, {4095, 12}, {4096, 12}, {4097, 13}, {65536, 16}};
-  for (const auto& [entries, bits] : expected) {
-    CHECK(SecondHalfFormat{Encoding::kVq, 3, {1, entries, 1, 1}}.index_bits(Codebook::kRotation) ==
-          bits);
-  }
 }
 
 TEST_CASE("second half: codebooks of the paper's sizes take 250 KiB, without SH 160 KiB") {
@@ -95,19 +84,6 @@ TEST_CASE("second half: indices of any number of entries come back") {
       REQUIRE(record.back() == std::byte{0xa5});  // nothing behind the record
     }
   }
-}
-
-TEST_CASE("second half: quantised records by hand") {
-  std::byte record[17];
-  encode_quantised_second_half({Encoding::kVq, 3, kPaperEntries}, {1, 0x203, 4095, 511}, 254,
-                               record);
-  const unsigned char words[17] = {1, 0, 0, 0, 3, 2, 0, 0, 0xff, 0x0f, 0, 0, 0xff, 1, 0, 0, 254};
-  CHECK(std::memcmp(record, words, 17) == 0);
-  encode_quantised_second_half({Encoding::kVqPacked, 3, kPaperEntries}, {1, 0x203, 4095, 511}, 254,
-                               record);
-  // 9 + 12 + 12 + 12 bits: 1ff fff 203 001
-  const unsigned char packed[8] = {254, 0x01, 0x30, 0x20, 0xff, 0xff, 0x1f, 0};
-  CHECK(std::memcmp(record, packed, 8) == 0);
 }
 
 // A Gaussian and its SH through both halves of one encoding.

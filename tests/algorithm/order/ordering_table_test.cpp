@@ -20,23 +20,6 @@ bool add_chain(OrderingTable& table, const Voxels& voxels) {
                      [&](std::uint32_t voxel) { return table.add(chain, voxel); });
 }
 
-TEST_CASE("ordering table: one chain is its own order") {
-  OrderingTable table(100);
-  add_chain(table, {42, 7, 99});
-  CHECK(table.order() == Voxels{42, 7, 99});
-  CHECK(table.voxel_count() == 3);
-  CHECK(table.edge_count() == 2);
-  CHECK(table.bytes() == 3 * 8 + 2 * 4);
-}
-
-TEST_CASE("ordering table: nothing, and rays that meet nothing") {
-  OrderingTable table(10);
-  CHECK(table.order().empty());
-  add_chain(table, {});
-  CHECK(table.order().empty());
-  CHECK(table.edges_offered() == 0);
-}
-
 TEST_CASE("ordering table: among voxels that are ready the one first met goes first") {
   OrderingTable table(100);
   // Renamed: 50 -> 0, 10 -> 1, 30 -> 2, 20 -> 3.
@@ -53,37 +36,6 @@ TEST_CASE("ordering table: among voxels that are ready the one first met goes fi
   CHECK(table.order() == Voxels{6, 7, 8, 5});
 }
 
-TEST_CASE("ordering table: a diamond") {
-  OrderingTable table(10);
-  add_chain(table, {1, 2, 4});
-  add_chain(table, {1, 3, 4});
-  CHECK(table.order() == Voxels{1, 2, 3, 4});
-  CHECK(table.edge_count() == 4);
-  CHECK(table.edges_offered() == 4);
-}
-
-TEST_CASE("ordering table: an edge counts once, however many rays offer it") {
-  OrderingTable table(10);
-  add_chain(table, {1, 2});
-  add_chain(table, {1, 2});
-  add_chain(table, {3});
-  add_chain(table, {1, 2});
-  CHECK(table.edge_count() == 1);
-  CHECK(table.edges_offered() == 3);
-}
-
-TEST_CASE("ordering table: clear forgets voxels, edges and the chain before") {
-  OrderingTable table(10);
-  add_chain(table, {1, 2});
-  table.clear();
-  add_chain(table, {1, 2});
-  CHECK(table.edge_count() == 1);
-  table.clear();
-  add_chain(table, {2, 1});
-  CHECK(table.order() == Voxels{2, 1});
-  CHECK(table.bytes() == 2 * 8 + 4);
-}
-
 TEST_CASE("ordering table: a chain that does not fit is told, whatever it lacks room for") {
   OrderingTable voxels(10, 8), edges(10, 2 * 8 + 4 + 3);
   CHECK(add_chain(voxels, {1}));
@@ -93,35 +45,6 @@ TEST_CASE("ordering table: a chain that does not fit is told, whatever it lacks 
   CHECK(add_chain(edges, {1, 2}));
   CHECK(add_chain(edges, {1}));
   CHECK_FALSE(add_chain(edges, {2, 1}));  // an edge of 4 B where 3 are left
-}
-
-TEST_CASE("ordering table: what an edge reads and writes") {
-  OrderingTable table(1000, 1000);
-  OrderingTable::Chain chain;
-  table.add(chain, 5);
-  // A free slot; the record, the slot and the bit of a voxel that waits for nobody.
-  CHECK(table.accesses().names_read == 1);
-  CHECK(table.accesses().reads == 0);
-  CHECK(table.accesses().writes == 1);
-  table.add(chain, 6);
-  // The voxel before, which has no edge yet; the record and its in-degree, the edge, the list's
-  // head.
-  CHECK(table.accesses().reads == 1);
-  CHECK(table.accesses().writes == 1 + 3);
-  const std::uint64_t names = table.accesses().names_read;
-  OrderingTable::Chain again;
-  table.add(again, 5);
-  table.add(again, 6);
-  // Both are found by name and known by their records; the voxel before, and its only edge.
-  CHECK(table.accesses().names_read >= names + 2);
-  CHECK(table.accesses().reads >= 1 + 2 + 2);
-  CHECK(table.accesses().writes == 1 + 3);
-  const OrderingAccesses met = table.accesses();
-  CHECK(table.order() == Voxels{5, 6});
-  // A record for each voxel, two for the edge; the successor's in-degree.
-  CHECK(table.accesses().reads == met.reads + 2 + 2);
-  CHECK(table.accesses().writes == met.writes + 1);
-  CHECK(table.accesses().ready_read >= met.ready_read + 2 * table.ready_levels());
 }
 
 TEST_CASE("ordering table: edges in lines take no room of it, and a voxel has so many at most") {

@@ -83,17 +83,3 @@ TEST_CASE("blend pass: what observers see makes the reference image, to the bit"
     CHECK(*std::max_element(reference.contributors.begin(), reference.contributors.end()) > 3);
   }
 }
-
-TEST_CASE("blend pass: an observer changes nothing") {
-  const ActivatedCloud cloud = activate(test::random_cloud(32, 3000, 0, {0, 0, 3}, 4, 0.01F, 0.6F));
-  const auto view = make_view<float>(test::forward_camera(70, 45, 80));
-  const auto tiles = blend_scene(view, cloud, [](GroupState& tile, const Splat& splat) {
-    tile.blend(splat, each_pixel([](const PixelBlend&) {}));
-  });
-  RenderResult observed = render_reference(view, {});
-  const RenderResult alone = render_reference(view, cloud);
-  for (const GroupState& tile : tiles) tile.store(glm::vec3(0.0F), observed);
-  CHECK(observed.image.pixels == alone.image.pixels);
-  CHECK(observed.transmittance == alone.transmittance);
-  CHECK(observed.contributors == alone.contributors);
-}

@@ -189,18 +189,5 @@ TEST_CASE("paper renderer: parts of a group change no pixel in single precision"
   }
 }
 
-TEST_CASE("paper renderer: an empty scene is the background") {
-  Camera camera;
-  camera.width = 33;
-  camera.height = 17;
-  camera.focal_x = camera.focal_y = 20;
-  PaperOrderConfig config;
-  config.background = {0.25F, 0.5F, 0.75F};
-  const StreamingResult result =
-      render_paper_order(make_view<float>(camera), ActivatedCloud{}, VoxelGrid{}, config);
-  for (const glm::vec3& pixel : result.frame.image.pixels) REQUIRE(pixel == config.background);
-  CHECK(result.stats.visits == 0);
-}
-
 }  // namespace
 }  // namespace sgs

@@ -102,15 +102,3 @@ TEST_CASE("reference renderer on small built-in scenes: float against double") {
     test::check_against_double(name, scene.cameras.at(0), scene.cloud);
   }
 }
-
-TEST_CASE("background shows by what is left of the light") {
-  GaussianCloud cloud;
-  test::add_ball(cloud, {0, 0, 2}, 100, 0.75, {1, 0, 0});
-  const auto view = make_view<float>(test::forward_camera(20, 20, 20));
-  const RenderResult result = render_reference(view, activate(cloud), {0, 0.5F, 1});
-  for (const auto& pixel : result.image.pixels) {
-    CHECK(pixel.x == Approx(0.75).epsilon(1e-4));
-    CHECK(pixel.y == Approx(0.125).epsilon(1e-3));
-    CHECK(pixel.z == Approx(0.25).epsilon(1e-3));
-  }
-}

@@ -6,26 +6,6 @@
 
 using namespace sgs;
 
-TEST_CASE("cells by hand: 70x50 px in cells of 16 px, footprints in sub-tiles of 4 px") {
-  const CellGrid grid = cell_grid(70, 50, square_of(16));
-  CHECK(grid.columns == 5);
-  CHECK(grid.rows == 4);
-  // The last row and column begin with a pixel.
-  for (const auto& [px, cells] : {std::pair{1, 1}, {63, 4}, {64, 4}, {65, 5}}) {
-    CHECK(cell_grid(px, 1, square_of(16)).columns == cells);
-    CHECK(cell_grid(1, px, square_of(16)).rows == cells);
-  }
-  const CellRect one = cells_of(grid, {4, 0, 8, 4});
-  CHECK(one.size() == 1);
-  CHECK(one.x0 == 1);
-  CHECK(one.y0 == 0);
-  const CellRect four = cells_of(grid, {7, 3, 9, 5});
-  CHECK(four.size() == 4);
-  CHECK(four.x0 == 1);
-  CHECK(four.y0 == 0);
-  CHECK(cells_of(grid, {}).size() == 0);
-}
-
 TEST_CASE("every splat is in exactly the cells of its footprint, in order") {
   std::mt19937 random(2);
   const auto number = [&](int high) {

@@ -69,8 +69,3 @@ TEST_CASE("a sequence gives every visible splat once, in order, in batches of an
     CHECK(std::memcmp(all.data(), expected.data(), all.size() * sizeof(Splat)) == 0);
   }
 }
-
-TEST_CASE("the sequence of an empty cloud is at its end") {
-  const ActivatedCloud cloud;
-  CHECK(SplatSequence(make_view<float>(test::forward_camera(9, 9, 9)), cloud).at_end());
-}

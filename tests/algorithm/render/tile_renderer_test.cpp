@@ -210,26 +210,6 @@ TEST_CASE("tile-centric equals the reference: needles across the frame", "[night
   }
 }
 
-TEST_CASE("tile-centric: any format of features and pixels, few Gaussians") {
-  const ActivatedCloud cloud = activate(test::random_cloud(15, 1000, 0, {0, 0, 4}, 3, 0.02F, 0.2F));
-  const View<float> view = make_view<float>(test::forward_camera(70, 50, 120));
-  const Image reference = render_reference(view, cloud, glm::vec3(0)).image;
-  for (const NumberFormat features : {NumberFormat::kSingle, NumberFormat::kHalf}) {
-    for (const BlendPrecision precision :
-         {BlendPrecision::kSingle, BlendPrecision::kHalf, BlendPrecision::kFixed}) {
-      TileOrderConfig config = TileOrderConfig::lossless();
-      config.features = features;
-      config.precision = precision;
-      const double db = psnr_db(render_tiles(view, cloud, config).frame.image, reference);
-      const bool lossless =
-          features == NumberFormat::kSingle && precision == BlendPrecision::kSingle;
-      CAPTURE(static_cast<int>(features), static_cast<int>(precision), db);
-      CHECK(db > 55);
-      CHECK(std::isfinite(db) == !lossless);
-    }
-  }
-}
-
 TEST_CASE("tile-centric: what each approximation costs by itself on built-in scenes", "[nightly]") {
   struct Approximation {
     const char* name;
@@ -269,42 +249,6 @@ TEST_CASE("tile-centric: what each approximation costs by itself on built-in sce
       CHECK(std::isfinite(db));  // it does change something
     }
   }
-}
-
-TEST_CASE("tile-centric: counts add up, the same with one thread and with many") {
-  const BuiltinScene scene = make_builtin_scene("builtin:object?n=10000");
-  const ActivatedCloud cloud = activate(scene.cloud);
-  const View<float> view = make_view<float>(scene.cameras[1]);
-  const TileResult many = render_tiles(view, cloud, {});
-  const TileStats& s = many.stats;
-  CHECK(s.gaussians == cloud.size());
-  CHECK(s.culled + s.projected <= s.gaussians);
-  CHECK(s.projected <= s.pairs);
-  CHECK(s.pairs <= s.tile_tests);
-  CHECK(s.subtile_tests == 4 * s.tile_tests);
-  CHECK(s.pairs <= s.parts);
-  CHECK(s.parts <= 4 * s.pairs);
-  CHECK(s.entries_taken <= s.pairs);
-  CHECK(s.chunks_taken <= s.chunks);
-  CHECK(s.contributing <= s.projected);
-  CHECK(s.contributors <= 16 * s.subtile_blends);
-  std::uint64_t contributors = 0;
-  for (const std::uint32_t count : many.frame.contributors) contributors += count;
-  CHECK(s.contributors == contributors);
-
-  // A box along the ellipse spares tiles, a bitmap spares parts of them.
-  TileOrderConfig config;
-  config.rules.test = TileTest::kBox;
-  CHECK(render_tiles(view, cloud, config).stats.pairs > s.pairs);
-  config.rules = {TileReach::kThreeSigma, TileTest::kOriented, 1};
-  const TileStats whole = render_tiles(view, cloud, config).stats;
-  CHECK(whole.subtile_blends > s.subtile_blends);
-
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  const TileResult alone = render_tiles(view, cloud, {});
-  CHECK(test::first_difference(alone.frame, many.frame) == "");
-  CHECK(alone.stats.pairs == s.pairs);
-  CHECK(alone.stats.misordered == s.misordered);
 }
 
 TEST_CASE("tile-centric: every count, by a loop over pixels") {

@@ -5,7 +5,6 @@
 
 #include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/scene/ply_reader.h"
-#include "testbench/builtin/random.h"
 #include "tests/algorithm/scene/ply_bytes.h"
 #include "tests/support/scratch_folder.h"
 
@@ -145,16 +144,6 @@ TEST_CASE("ply reader refuses: a list longer than the file, or of negative lengt
   CHECK_THAT(ply_refusal(table), Contains("list corners: got length -1"));
 }
 
-TEST_CASE("ply reader refuses: truncated bodies, with the number of records that are there") {
-  const PlyTable table = counting_table(3);
-  const std::string bytes = test::bytes_of(table);
-  // 17 floats are 68 bytes: of 3 records the last 10 bytes are gone.
-  const std::string message = ply_refusal(bytes.substr(0, bytes.size() - 10));
-  CHECK_THAT(message, Contains("got 194 bytes, room for 2 records of element vertex"));
-  CHECK_THAT(message, Contains("expected 3 records of 68 bytes"));
-  CHECK_THAT(message, Contains("byte " + std::to_string(test::header_of(table).size()) + ":"));
-}
-
 TEST_CASE("ply reader refuses: bytes behind the last record") {
   struct Row {
     const char *format, *header_after, *body_after, *message;
@@ -179,33 +168,6 @@ TEST_CASE("ply reader refuses: bytes behind the last record") {
   blank.body_after = "\n  \n";
   const test::ScratchFolder scratch;
   CHECK(read_ply(scratch.write("blank.ply", test::bytes_of(blank))).cloud.size() == 3);
-}
-
-TEST_CASE("ply reader refuses: a file cut at any byte") {
-  const test::ScratchFolder scratch;
-  for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
-    for (const char* line_end : {"\n", "\r\n"}) {
-      PlyTable table = counting_table(2, 9);
-      table.format = format;
-      table.line_end = line_end;
-      table.header_before = "comment x\nelement face 1\nproperty list uchar int corners\n";
-      table.body_before = test::encoded(format, "uchar", 2) + test::encoded(format, "int", 1) +
-                          test::encoded(format, "int", 2);
-      table.header_after = "element tail 1\nproperty float w\n";
-      table.body_after = test::encoded(format, "float", 1);
-      if (table.format == "ascii") {
-        table.body_before += line_end;
-        table.body_after += line_end;
-      }
-      const std::string whole = test::bytes_of(table);
-      REQUIRE(read_ply(scratch.write("whole.ply", whole)).cloud.size() == 2);
-      for (std::size_t size = 0; size < whole.size(); ++size) {
-        const std::string path = scratch.write("cut.ply", whole.substr(0, size));
-        CAPTURE(format, size, whole.size());
-        REQUIRE_THROWS_AS(read_ply(path), InputError);
-      }
-    }
-  }
 }
 
 TEST_CASE("ply reader refuses: values that are not finite, by vertex and property") {
@@ -269,23 +231,6 @@ TEST_CASE("ply reader: values too large to be drawn are refused, or dropped and 
   }
 }
 
-TEST_CASE("ply reader: what may be of any size") {
-  const test::ScratchFolder scratch;
-  PlyTable table = counting_table(1);
-  table.rows[0][9] = 3e38;    // opacity: a sigmoid
-  table.rows[0][10] = -3e38;  // the logarithm of a scale of nothing
-  for (std::size_t k = 13; k < 17; ++k) table.rows[0][k] = -3e38;  // a rotation, to be normalised
-  table.rows[0][3] = 3e38;                                         // a normal
-  CHECK(read_ply(scratch.write("a.ply", test::bytes_of(table))).cloud.size() == 1);
-}
-
-TEST_CASE("ply reader: values that are not finite do not matter in properties it ignores") {
-  const test::ScratchFolder scratch;
-  PlyTable table = counting_table(2);
-  table.rows[1][4] = std::nan("");  // ny
-  CHECK(read_ply(scratch.write("a.ply", test::bytes_of(table))).cloud.size() == 2);
-}
-
 TEST_CASE("ply reader refuses: quaternions of length zero") {
   PlyTable table = counting_table(5);
   for (int i = 0; i < 4; ++i) table.rows[3][13 + i] = i % 2 ? 0.0 : -0.0;
@@ -341,31 +286,4 @@ TEST_CASE("ply reader refuses: text that is no number, by line") {
              Contains("got 18 values, expected 17"));
   CHECK_THAT(ply_refusal(replaced(good, "-990 ", "1e99 ")),
              Contains("vertex 1, property scale_0: got inf"));
-}
-
-TEST_CASE("ply reader: damaged bytes are read or refused, nothing else") {
-  const test::ScratchFolder scratch;
-  Random random(5);
-  for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
-    PlyTable table = counting_table(3, 9);
-    table.format = format;
-    table.header_before = "element face 1\nproperty list uchar int corners\n";
-    table.body_before = test::encoded(format, "uchar", 1) + test::encoded(format, "int", 1);
-    if (table.format == "ascii") table.body_before += "\n";
-    const std::string whole = test::bytes_of(table);
-    int refused = 0;
-    for (int round = 0; round < 1500; ++round) {
-      std::string damaged = whole;
-      for (std::uint64_t k = random.bits() % 3 + 1; k > 0; --k) {
-        damaged[random.bits() % damaged.size()] = static_cast<char>(random.bits());
-      }
-      const std::string path = scratch.write("damaged.ply", damaged);
-      try {
-        read_ply(path, {round % 2 == 0});
-      } catch (const InputError&) {
-        ++refused;
-      }
-    }
-    CHECK(refused > 500);  // most of the file is header
-  }
 }

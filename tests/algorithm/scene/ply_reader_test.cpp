@@ -180,17 +180,6 @@ TEST_CASE("ply reader: an element of large lists is skipped without holding it")
   check_counting_cloud(read_ply(scratch.write("a.ply", test::bytes_of(table))).cloud, 2);
 }
 
-TEST_CASE("ply reader: no vertices is an empty scene") {
-  const test::ScratchFolder scratch;
-  for (const char* format : {"ascii", "binary_little_endian"}) {
-    PlyTable table = counting_table(0, 45);
-    table.format = format;
-    const GaussianCloud cloud = read_ply(scratch.write("a.ply", test::bytes_of(table))).cloud;
-    CHECK(cloud.size() == 0);
-    CHECK(cloud.sh_degree == 3);
-  }
-}
-
 TEST_CASE("ply reader: more vertices than a block, in order") {
   const test::ScratchFolder scratch;
   PlyTable table = counting_table(20'000, 0);

@@ -63,14 +63,6 @@ TEST_CASE("ply writer: the file is the original's, byte for byte") {
   CHECK(test::bytes_of(scratch.path("b.ply")) == bytes);
 }
 
-TEST_CASE("ply writer: an empty cloud is a file of no vertices") {
-  const test::ScratchFolder scratch;
-  GaussianCloud cloud;
-  cloud.resize(0, 2);
-  write_ply(scratch.path("a.ply"), cloud);
-  CHECK(read_ply(scratch.path("a.ply")).cloud.sh_degree == 2);
-}
-
 TEST_CASE("ply writer: bad targets and bad clouds leave nothing behind") {
   const test::ScratchFolder scratch;
   GaussianCloud cloud = random_cloud(3, 1);

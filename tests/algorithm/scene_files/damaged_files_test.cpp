@@ -5,12 +5,30 @@
 
 #include "algorithm/scene_files/load_scene.h"
 #include "testbench/builtin/random.h"
+#include "tests/algorithm/scene/ply_bytes.h"
 #include "tests/algorithm/scene_files/made_scene_files.h"
 #include "tests/support/scratch_folder.h"
 
 using namespace sgs;
 
 namespace {
+
+// Records between other elements.
+std::string plain_ply(const char* format, const char* line_end) {
+  test::PlyTable table = test::counting_table(3, 9);
+  table.format = format;
+  table.line_end = line_end;
+  table.header_before = "comment x\nelement face 1\nproperty list uchar int corners\n";
+  table.body_before = test::encoded(format, "uchar", 2) + test::encoded(format, "int", 1) +
+                      test::encoded(format, "int", 2);
+  table.header_after = "element tail 1\nproperty float w\n";
+  table.body_after = test::encoded(format, "float", 1);
+  if (table.format == "ascii") {
+    table.body_before += line_end;
+    table.body_after += line_end;
+  }
+  return test::bytes_of(table);
+}
 
 struct MadeFile {
   const char* name;
@@ -20,6 +38,10 @@ struct MadeFile {
 
 const MadeFile kFiles[] = {
     {"a.splat", [] { return test::splat_bytes(3); }, 1},
+    {"1.ply", [] { return plain_ply("ascii", "\n"); }, 1},
+    {"2.ply", [] { return plain_ply("ascii", "\r\n"); }, 1},
+    {"3.ply", [] { return plain_ply("binary_little_endian", "\r\n"); }, 1},
+    {"4.ply", [] { return plain_ply("binary_big_endian", "\n"); }, 1},
     {"a.ply", [] { return test::compressed_ply_bytes(3, 1, true); }, 1},
     {"1.spz", [] { return test::spz_bytes(1, 3, 1); }, 1},
     {"2.spz", [] { return test::spz_bytes(2, 3, 1); }, 1},

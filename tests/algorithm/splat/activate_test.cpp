@@ -40,34 +40,6 @@ std::array<double, 11> in_double(const std::array<double, 11>& p) {
 
 }  // namespace
 
-TEST_CASE("activation by hand: exp, sigmoid, unit quaternion, coefficients as they are") {
-  GaussianCloud cloud;
-  cloud.resize(2, 1);
-  cloud.means[0] = {1, 2, 3};
-  cloud.log_scales[0] = {0, std::log(2.0F), -23};
-  cloud.quats[0] = {3, 0, -4, 0};
-  cloud.opacity_logits[0] = std::log(3.0F);
-  for (std::size_t k = 0; k < 8; ++k) cloud.sh_coeffs[k] = glm::vec3(static_cast<float>(k));
-  cloud.quats[1] = {1e-20F, 1e-20F, 1e-20F, 1e-20F};  // squares underflow in float
-  cloud.opacity_logits[1] = 200;
-
-  const ActivatedCloud out = activate(cloud);
-  REQUIRE(out.size() == 2);
-  CHECK(out.sh_degree == 1);
-  const auto& g = out.gaussians[0];
-  CHECK(g.mean == glm::vec3(1, 2, 3));
-  CHECK(g.scale.x == 1);
-  CHECK(g.scale.y == Approx(2).epsilon(1e-6));
-  CHECK(g.scale.z == static_cast<float>(std::exp(-23.0)));
-  CHECK(g.quat == std::array<float, 4>{0.6F, 0, -0.8F, 0});
-  CHECK(g.opacity == Approx(0.75).epsilon(1e-6));
-  CHECK(out.gaussians[1].quat == std::array<float, 4>{0.5F, 0.5F, 0.5F, 0.5F});
-  CHECK(out.gaussians[1].opacity == 1);
-  CHECK(out.sh(1)[2] == glm::vec3(6));  // entry 4 + 2
-}
-
-TEST_CASE("activation of an empty cloud is empty") { CHECK(activate(GaussianCloud{}).size() == 0); }
-
 TEST_CASE("activation in float is the one in double, rounded once") {
   std::mt19937 random(1);
   for (int round = 0; round < 2000; ++round) {
@@ -98,24 +70,6 @@ TEST_CASE("activation of dual numbers carries the derivatives") {
       }
     }
   }
-}
-
-TEST_CASE("activation counted: four exponentials, a length and five quotients") {
-  DataFlow flow;
-  const std::array<double, 11> p = {1, 2, 3, -1, 0, 1, 1, 2, 3, 4, 0.5};
-  const auto counted = values_of(activate(raw_of<Counting>(
-      p, [&](double v, std::size_t) { return input(flow, static_cast<float>(v)); })));
-  const auto expected = in_double(p);
-  for (std::size_t k = 0; k < p.size(); ++k) {
-    CHECK(counted[k].value == Approx(expected[k]).epsilon(1e-6));
-  }
-  const OperationCounts counts = flow.counts(0, flow.size());
-  CHECK(counts.exponentials == 4);
-  CHECK(counts.square_roots == 1);
-  CHECK(counts.multiplies == 4);
-  CHECK(counts.adds == 4);  // three of the length, one of the sigmoid
-  CHECK(counts.divisions == 5);
-  CHECK(counts.divisors == 2);
 }
 
 TEST_CASE("activating again what has changed is activating all") {

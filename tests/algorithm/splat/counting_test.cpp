@@ -12,13 +12,6 @@ namespace {
 
 OperationCounts all(const DataFlow& flow) { return flow.counts(0, flow.size()); }
 
-OperationCounts basis_counts(int degree) {
-  DataFlow flow;
-  Counting basis[16];
-  sh_basis(degree, input(flow, 0.1F), input(flow, 0.2F), input(flow, 0.3F), basis);
-  return all(flow);
-}
-
 }  // namespace
 
 TEST_CASE("counting: a dot product is three multiplies, two of which the adds follow") {
@@ -113,33 +106,6 @@ TEST_CASE("counting: whole numbers stay in the graph until they are numbers agai
   CHECK(counts.conversions == 1);
   CHECK(counts.comparisons == 2 + 4);  // the index's ends; the nearest, the farthest, 9, 8
   CHECK(counts.roundings == 1);
-}
-
-TEST_CASE("counting: alpha of a pixel") {
-  DataFlow flow;
-  const Counting a = input(flow, 0.5F), b = input(flow, 0.1F), c = input(flow, 0.4F);
-  const Counting dx = input(flow, 1), dy = input(flow, -1);
-  CHECK(alpha_at(a, b, c, input(flow, 0.8F), dx, dy).value ==
-        alpha_at(0.5F, 0.1F, 0.4F, 0.8F, 1.0F, -1.0F));
-  const OperationCounts counts = all(flow);
-  // log2(e) three times, a dx dx, c dy dy, b dx dy, two of the parabola, opacity.
-  CHECK(counts.multiplies == 12);
-  CHECK(counts.adds == 4);  // of the exponent and of the parabola, each behind a product
-  CHECK(counts.fused == 4);
-  CHECK(counts.look_ups == 1);
-  CHECK(counts.splits == 1);
-  CHECK(counts.scalings == 1);
-  CHECK(counts.exponentials == 0);
-  CHECK(counts.comparisons == 4);  // end of the table, cap, above 0, below 1/255
-}
-
-TEST_CASE("counting: each degree of spherical harmonics takes more than the one below") {
-  CHECK(basis_counts(0).multiplies + basis_counts(0).adds == 0);
-  CHECK(basis_counts(1).multiplies == 3);
-  for (int degree = 1; degree <= 3; ++degree) {
-    CAPTURE(degree);
-    CHECK(basis_counts(degree).multiplies > basis_counts(degree - 1).multiplies);
-  }
 }
 
 TEST_CASE("counting: halves that are counted are the halves of blending") {

@@ -49,11 +49,3 @@ TEST_CASE("truncated_index: toward zero, clamped, safe outside the range of int"
   CHECK(truncated_index(std::numeric_limits<float>::quiet_NaN(), 10) == 0);
   CHECK(truncated_index(2147483904.0, 2147483647) == 2147483647);
 }
-
-TEST_CASE("clamp_of and constant") {
-  CHECK(clamp_of(2.0, -1.0, 1.0) == 1.0);
-  CHECK(clamp_of(-2.0, -1.0, 1.0) == -1.0);
-  CHECK(clamp_of(0.5, -1.0, 1.0) == 0.5);
-  CHECK(constant<double>(0.1) == 0.1);
-  CHECK(constant<float>(0.1) == 0.1F);
-}

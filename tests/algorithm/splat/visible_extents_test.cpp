@@ -30,16 +30,6 @@ double sigma_along(const Gaussian<float>& g, int a) {
   return std::sqrt(sum);
 }
 
-TEST_CASE("visible extents: a Gaussian along the axes by hand") {
-  // 255 opacity = e^2: k = 2, and 1e-4 / 4 for rounding.
-  const float opacity = static_cast<float>(std::exp(2.0) / 255);
-  const VisibleExtents found = visible_extents({{0, 0, 0}, {3, 1, 0.5F}, {1, 0, 0, 0}, opacity});
-  CHECK(found.scale_max == 3);
-  CHECK(found.extent.x == Approx(6).epsilon(1e-4));
-  CHECK(found.extent.y == Approx(2).epsilon(1e-4));
-  CHECK(found.extent.z == Approx(1).epsilon(1e-4));
-}
-
 TEST_CASE("visible extents: no less than in double, no more than rounding") {
   test::RandomGaussians random(31, 200, 100);
   for (int i = 0; i < 20000; ++i) {

@@ -1,9 +1,7 @@
 // Whole scenes in each encoding: what `decoded` holds is what the bytes decode to, to the bit.
 #include "algorithm/storage/encoded_cloud.h"
 
-#include <algorithm>
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -71,44 +69,6 @@ TEST_CASE("encoded cloud: decoded is what the written bytes decode to") {
   }
 }
 
-TEST_CASE("encoded cloud: nothing, one Gaussian, ten thousand equal ones") {
-  for (const Encoding encoding : kAll) {
-    check_scene(cloud_of(2, 0, 3), encoding);
-    check_scene(cloud_of(2, 1, 3), encoding);
-    ActivatedCloud equal = cloud_of(3, 10000, 2);
-    for (std::size_t i = 0; i < equal.size(); ++i) {
-      equal.gaussians[i] = equal.gaussians[0];
-      std::copy_n(equal.sh(0), 9, equal.sh_coeffs.begin() + static_cast<std::ptrdiff_t>(9 * i));
-    }
-    check_scene(equal, encoding);
-    const EncodedCloud encoded = encode(equal, encoding);
-    // One entry each: no index is stored, only the opacity.
-    if (encoded.format.quantised()) CHECK(encoded.format.bytes() == 1);
-  }
-}
-
-TEST_CASE("encoded cloud: extreme shapes, opacities and colours") {
-  ActivatedCloud cloud = cloud_of(4, 200, 3);
-  cloud.gaussians[0].scale = {0, 0, 0};
-  cloud.gaussians[1].scale = {1, 1e-10F, 1e-10F};
-  cloud.gaussians[2].scale = {1e-38F, 3e38F, 1};
-  cloud.gaussians[3].scale = {2, 2, 2};
-  cloud.gaussians[4].opacity = 0;
-  cloud.gaussians[5].opacity = 1;
-  cloud.gaussians[6].mean = {1e30F, -1e30F, 0};
-  for (std::size_t k = 0; k < 16; ++k) cloud.sh_coeffs[16 * 7 + k] = glm::vec3(1e30F);
-  for (const Encoding encoding : kAll) {
-    check_scene(cloud, encoding);
-    const EncodedCloud encoded = encode(cloud, encoding);
-    CHECK(encoded.decoded.gaussians[4].opacity == 0);
-    CHECK(encoded.decoded.gaussians[5].opacity == 1);
-    for (const Gaussian<float>& g : encoded.decoded.gaussians) {
-      for (int axis = 0; axis < 3; ++axis) CHECK(std::isfinite(g.scale[axis]));
-      for (const float component : g.quat) CHECK(std::isfinite(component));
-    }
-  }
-}
-
 TEST_CASE("encoded cloud: scales of infinity, which are never drawn, are not drawn decoded") {
   ActivatedCloud cloud = cloud_of(5, 200, 1);
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -128,23 +88,6 @@ TEST_CASE("encoded cloud: scales of infinity, which are never drawn, are not dra
     }
     CHECK(drawn > 150);
   }
-}
-
-TEST_CASE("encoded cloud: raw gives back the scene, both quantised forms the same one") {
-  const ActivatedCloud cloud = cloud_of(6, 300, 3);
-  const EncodedCloud raw = encode(cloud, Encoding::kRaw);
-  CHECK(std::memcmp(raw.decoded.gaussians.data(), cloud.gaussians.data(),
-                    cloud.size() * sizeof(Gaussian<float>)) == 0);
-  CHECK(raw.records.empty());
-  for (const Encoding encoding : {Encoding::kHalf, Encoding::kVq, Encoding::kVqPacked}) {
-    const EncodedCloud encoded = encode(cloud, encoding);
-    CHECK(encoded.records.size() == cloud.size() * encoded.format.bytes());
-  }
-  const EncodedCloud words = encode(cloud, Encoding::kVq),
-                     bits = encode(cloud, Encoding::kVqPacked);
-  CHECK(words.codebooks == bits.codebooks);
-  CHECK(std::memcmp(words.decoded.gaussians.data(), bits.decoded.gaussians.data(),
-                    cloud.size() * sizeof(Gaussian<float>)) == 0);
 }
 
 }  // namespace

@@ -208,18 +208,6 @@ TEST_CASE("image file: foreign files, other versions, what is no file") {
   refusal_of(scratch.path(""));
 }
 
-TEST_CASE("image file: the checksum's message says what was found") {
-  const ScratchFolder scratch;
-  std::string bytes = small_file(scratch);
-  const std::uint32_t checksum = read_image_file(scratch.path("a.sgs")).checksum;
-  std::uint32_t written = 0;
-  std::memcpy(&written, bytes.data() + bytes.size() - 4, 4);
-  CHECK(written == checksum);
-  bytes[kFieldsAt] = static_cast<char>(bytes[kFieldsAt] ^ 1);
-  CHECK_THAT(refusal_of(scratch.write("b.sgs", bytes)),
-             Contains("byte " + std::to_string(bytes.size() - 4) + ": checksum"));
-}
-
 // Writes the header of a file anew, with a right length and checksum.
 void rewrite(const std::string& path, std::string bytes) {
   bytes.resize(bytes.size() - kChecksumBytes);
@@ -324,13 +312,6 @@ TEST_CASE("image file: what cannot be written leaves nothing and keeps what was 
   write_image_file(scratch.path("a.sgs"), packed.facts, packed.storage, packed.image);
   CHECK(scratch.file_count() == 1);
   CHECK(bytes_of(scratch.path("a.sgs")) == bytes);
-}
-
-TEST_CASE("image file: known by its extension") {
-  CHECK(is_image_file("a/b.sgs"));
-  CHECK_FALSE(is_image_file("a/b.ply"));
-  CHECK_FALSE(is_image_file("builtin:object?n=1.sgsx"));
-  CHECK_FALSE(is_image_file(".sgs/scene"));
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "algorithm/files/input_error.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/spherical_harmonics.h"
 #include "algorithm/storage/sh_bands.h"
@@ -157,65 +156,6 @@ TEST_CASE("store: sizes that are still to be chosen are refused") {
   CHECK_THAT(refusal(StorageOrder::kVoxels, 1e-60, 16), Contains("voxel_size: got 1e-60"));
   CHECK_THAT(refusal(StorageOrder::kVoxels, 1e-7, 16), Contains("at least"));
   CHECK_THAT(refusal(StorageOrder::kChunks, 1, 0), Contains("chunk_gaussians: got 0"));
-}
-
-// What each order says of itself of a stored scene.
-TEST_CASE("storage schemes: names, sizes, choices and facts of each order") {
-  const ActivatedCloud cloud = cut_object(300, 0);
-  struct Case {
-    StorageOrder order;
-    const char *name, *in_words, *size;
-    std::vector<std::string> keys, by_memory, by_scene, facts;
-  };
-  for (const Case& c : std::vector<Case>{
-           {StorageOrder::kVoxels,
-            "voxels",
-            "voxels of 0.4",
-            "0.4 world units",
-            {"voxel_size"},
-            {},
-            {"voxel_size"},
-            {"voxel_size", "voxels"}},
-           {StorageOrder::kChunks,
-            "chunks",
-            "chunks of 8",
-            "at most 8 Gaussians",
-            {"chunk_gaussians"},
-            {"chunk_gaussians"},
-            {},
-            {"chunks"}},
-           {StorageOrder::kFile, "file", "neighbours together", "", {}, {}, {}, {}}}) {
-    INFO(c.name);
-    const StorageScheme& scheme = scheme_of(c.order);
-    CHECK(scheme.name() == std::string(c.name));
-    StorageConfig config = small_storage(SecondHalfEncoding::kRaw, c.order);
-    CHECK(scheme.in_words(config) == c.in_words);
-    CHECK(scheme.size_in_words(config) == c.size);
-    const StoredScene scene = store_scene(cloud, config, {});
-    CHECK(scene.image.layout.order() == c.order);
-    CHECK(order_of(scheme.empty_table()) == c.order);
-    CHECK(scheme.blocks(scene.image.layout.table).has_value() == !c.keys.empty());
-
-    const auto names = [](const auto& list, auto&& name) {
-      std::vector<std::string> out;
-      for (const auto& entry : list) out.emplace_back(name(entry));
-      return out;
-    };
-    const auto key = [](const auto& entry) { return entry.key; };
-    CHECK(names(scheme.sizes(), key) == c.keys);
-    CHECK(names(scheme.facts(scene.image.layout.table),
-                [](const StorageFact& f) { return f.key; }) == c.facts);
-    CHECK(scheme.choose(config, 256).empty());
-    CHECK(scheme.choose(config, cloud).empty());
-    // Left open, a size is chosen once and then is none that a scene cannot be stored by.
-    for (const StorageSize& size : scheme.sizes()) {
-      std::visit([&](auto member) { config.*member = 0; }, size.value);
-      CHECK_THROWS_AS(scheme.check(config), InputError);
-    }
-    CHECK(names(scheme.choose(config, 256), key) == c.by_memory);
-    CHECK(names(scheme.choose(config, cloud), key) == c.by_scene);
-    CHECK_NOTHROW(scheme.check(config));
-  }
 }
 
 TEST_CASE("storage choices: voxels by the scene's extent, chunks by a row of memory") {

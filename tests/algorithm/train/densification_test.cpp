@@ -74,18 +74,6 @@ TEST_CASE("densification: room goes to those that are pulled most") {
   CHECK(scene.cloud.means[3].x == 0);
 }
 
-TEST_CASE("densification: once opacities were reset, too large ones go") {
-  Scene scene;
-  add_ball(scene.cloud, {0, 0, 3}, 0.5, 0.5, {1, 0, 0});
-  add_ball(scene.cloud, {0, 0, 3}, 1.5, 0.5, {1, 0, 0});
-  scene.pulls = {{0, 0}, {0, 0}};
-  Adam adam(scene.cloud);
-  densify_and_prune({}, seen(scene, 1), kExtent, false, 9, 1, 0, scene.cloud, adam);
-  CHECK(scene.cloud.size() == 2);
-  densify_and_prune({}, seen(scene, 1), kExtent, true, 9, 1, 0, scene.cloud, adam);
-  CHECK(scene.cloud.size() == 1);
-}
-
 // How many are left of one Gaussian: none, itself, or two.
 std::size_t left_of(double radius, double opacity, float pull_x, bool prune_large = false) {
   Scene scene;

@@ -107,19 +107,6 @@ TEST_CASE("boundary tuning: saved and resumed, on 1 and 3 threads, the same bits
   }
 }
 
-TEST_CASE("boundary tuning: what is no number stops it, and the step has changed nothing") {
-  BoundaryCase scene;
-  scene.order.precision = BlendPrecision::kSingle;  // a half's largest number is finite
-  GaussianCloud cloud = scene.cloud;
-  for (glm::vec3& coeff : cloud.sh_coeffs) coeff.x = 1e38F;
-  VisitPlan plan(scene.grid, scene.order, 0);
-  SceneTuner tuner(short_tuning(), scene.pictures, paper_order(plan),
-                   boundary(0.05, MisorderedIn::kPixel), cloud);
-  const std::string before = tuner.saved();
-  CHECK_THROWS_WITH(tuner.step(), Catch::StartsWith("step 1: a derivative of Gaussian "));
-  CHECK(tuner.saved() == before);
-}
-
 // Groups that the boxes of all splats meet.
 std::size_t fetches(const ActivatedCloud& cloud, const PixelSize& group) {
   std::size_t sum = 0;

@@ -160,22 +160,6 @@ TEST_CASE("L_CBP: its gradient is that of dual numbers, and adds to what is ther
   }
 }
 
-TEST_CASE("L_CBP: the same bits on 1, 2 and 3 threads") {
-  const auto view = make_view<float>(forward_camera(150, 90, 110));
-  const PaperScene scene = paper_scene(random_cloud(3, 2000, 0, {0, 0, 3}, 1, 0.01F, 0.3F), 0.3F);
-  std::vector<BoundaryPenalty> penalties;
-  for (const std::size_t threads : {1, 2, 3}) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    VisitPlan plan(scene.grid, scene.order, 0);
-    penalties.push_back(boundary_penalty(plan.sequences(0, view, scene.cloud), scene.cloud,
-                                         BlendPrecision::kHalf, {}));
-  }
-  for (const BoundaryPenalty& other : penalties) {
-    CHECK(other.value == penalties[0].value);
-    CHECK(other.groups == penalties[0].groups);
-  }
-}
-
 TEST_CASE("plan of visits: within its memory, and whatever is kept, paper order's picture") {
   const PaperScene scene = paper_scene(random_cloud(4, 2000, 0, {0, 0, 3}, 1, 0.01F, 0.3F), 0.2F);
   std::vector<View<float>> views;

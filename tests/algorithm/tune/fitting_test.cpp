@@ -1,5 +1,4 @@
-// All of a step together: a scene moved off its picture finds back, in either order, and takes the
-// same way whatever the number of threads.
+// All of a step together: a scene moved off its picture finds back, in either order.
 #include <tbb/global_control.h>
 
 #include <catch2/catch.hpp>
@@ -101,25 +100,6 @@ TEST_CASE("paper order comes nearer to the reference picture, the centres left w
   const double psnr_after = psnr_db(after.frame.image, target);
   CAPTURE(psnr_before, psnr_after);
   CHECK(psnr_after > psnr_before + 3);
-}
-
-TEST_CASE("a fit takes the same way, bit for bit, on 1, 2 and 3 threads") {
-  const Camera camera = forward_camera(100, 64, 80);
-  const auto view = make_view<float>(camera);
-  const GaussianCloud scene = random_cloud(3, 600, 3, {0, 0, 3}, 1, 0.02F, 0.3F);
-  const Image target = draw(reference_sequences(view, activate(scene))).image;
-  std::vector<Fit> fits;
-  for (const std::size_t threads : {1, 2, 3}) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    fits.push_back(
-        fit(moved_off(scene, true), view, target, reference_sequences, kFittingRates, 6));
-  }
-  for (const std::size_t other : {1, 2}) {
-    CHECK(fits[0].losses == fits[other].losses);
-    CHECK(fits[0].cloud.means == fits[other].cloud.means);
-    CHECK(fits[0].cloud.quats == fits[other].cloud.quats);
-    CHECK(fits[0].cloud.sh_coeffs == fits[other].cloud.sh_coeffs);
-  }
 }
 
 }  // namespace

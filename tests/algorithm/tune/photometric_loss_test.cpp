@@ -5,7 +5,6 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstring>
 #include <random>
 
 #include "algorithm/files/input_error.h"
@@ -117,23 +116,6 @@ TEST_CASE("equal pictures: no loss, no gradient") {
   const auto exact = random_values(size, 5);
   const auto in_double = photometric_loss(exact.data(), exact.data(), size.width, size.height);
   for (const double g : in_double.gradient) REQUIRE(std::abs(g) < 1e-15);
-}
-
-TEST_CASE("the loss has the same bits for 1, 2 and 3 threads") {
-  const Size size{130, 77};
-  const Image a = image_of(random_values(size, 6), size),
-              b = image_of(random_values(size, 7), size);
-  std::vector<ImageLoss> losses;
-  for (const std::size_t threads : {1, 2, 3}) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    losses.push_back(photometric_loss(a, b));
-  }
-  for (const ImageLoss& other : {losses[1], losses[2]}) {
-    CHECK(losses[0].loss == other.loss);
-    CHECK(losses[0].ssim == other.ssim);
-    CHECK(std::memcmp(losses[0].gradient.pixels.data(), other.gradient.pixels.data(),
-                      a.pixels.size() * sizeof(glm::vec3)) == 0);
-  }
 }
 
 TEST_CASE("pictures of two sizes have no loss") {

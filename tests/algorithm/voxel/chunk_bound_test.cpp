@@ -1,4 +1,4 @@
-// The test of a chunk against a pixel group: by brute force on random scenes, and by hand.
+// The test of a chunk against a pixel group, by brute force on random scenes.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -96,51 +96,4 @@ TEST_CASE("chunk test misses nothing: coordinates near the end of float") {
     }
     CHECK(tally.chunks > 1000);
   }
-}
-
-TEST_CASE("chunk test by hand: one point against the four sides of a group") {
-  // Focal length 100 px, centre (49.5, 49.5) px; group [32, 48) x [48, 64).
-  Camera camera;
-  camera.width = camera.height = 100;
-  camera.focal_x = camera.focal_y = 100;
-  const View<float> view = make_view<float>(camera);
-  const GroupFrustum group(view, {32, 48, 48, 64});
-  const auto touches_at = [&](float x_px, float y_px, float extent) {
-    ChunkBound bound;
-    bound.low = bound.high = {(x_px - 49.5F) / 100 * 2, (y_px - 49.5F) / 100 * 2, 2};
-    bound.extent = glm::vec3(extent);
-    bound.scale_max = extent / 3.3F;
-    return group.test(bound).touches;
-  };
-  CHECK(touches_at(40, 56, 0));
-  // A point's low-pass reaches 3.33 sqrt(0.3) = 1.82 px; the bound gives away less than 0.1 px.
-  for (const float away : {1.82F, 1.93F}) {
-    const bool expected = away < 1.9F;
-    CHECK(touches_at(32 - away, 56, 0) == expected);
-    CHECK(touches_at(47 + away, 56, 0) == expected);
-    CHECK(touches_at(40, 48 - away, 0) == expected);
-    CHECK(touches_at(40, 63 + away, 0) == expected);
-  }
-  // Half an extent of 0.2 at depth 2 is 10 px; u = (x - 49.5) / 100 tilts it by u 0.2 as well.
-  CHECK(touches_at(32 - 11.5F, 56, 0.2F));
-  CHECK_FALSE(touches_at(32 - 16, 56, 0.2F));
-}
-
-TEST_CASE("chunk test by hand: depths") {
-  Camera camera;
-  camera.width = camera.height = 100;
-  camera.focal_x = camera.focal_y = 100;
-  const View<float> view = make_view<float>(camera);
-  const GroupFrustum group(view, {0, 0, 100, 100});
-  const auto along_z = [&](float low, float high) {
-    ChunkBound bound;
-    bound.low = {0, 0, low};
-    bound.high = {0, 0, high};
-    return group.test(bound);
-  };
-  CHECK_FALSE(along_z(-5, 0.1999F).touches);
-  CHECK(along_z(-5, 0.3F).touches);
-  CHECK(along_z(-5, 0.3F).nearest == 0.2F);
-  CHECK(along_z(3, 4).nearest <= 3);
-  CHECK(along_z(3, 4).nearest == Approx(3).epsilon(1e-5));
 }

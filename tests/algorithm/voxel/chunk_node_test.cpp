@@ -2,7 +2,6 @@
 #include "algorithm/voxel/chunk_node.h"
 
 #include <catch2/catch.hpp>
-#include <cfenv>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -49,28 +48,6 @@ std::vector<ChunkBound> random_bounds(std::mt19937& random, double offset, doubl
 }
 
 }  // namespace
-
-TEST_CASE("a node quantised by hand") {
-  // Width 255 along x: steps of 1. Largest extent 3: exponent 2, q = 255 - ceil(16 log2(4 / 3)).
-  ChunkBound a, b;
-  a.low = {0, 0, 0};
-  a.high = {10.25F, 0, 0};
-  a.extent = {3, 3, 3};
-  b.low = {99.75F, 0, 0};
-  b.high = {255, 0, 0};
-  b.extent = {3, 0, 3};
-  const ChunkNode node = quantised({a, b});
-  CHECK(node.step_exponent[0] == 0);
-  CHECK(node.low[0][0] == 0);
-  CHECK(node.high[0][0] == 11);
-  CHECK(node.low[1][0] == 99);
-  CHECK(node.high[1][0] == 255);
-  CHECK(node.extent_exponent == 2);
-  CHECK(node.extent[0][0] == 249);
-  CHECK(node.extent[1][1] == 0);
-  // 4 x 2^(-6/16), a sixteenth of an octave above 3 at most.
-  CHECK(child_bound(node, 0).extent.x == Approx(3.0844).epsilon(1e-4));
-}
 
 TEST_CASE("quantisation is never inward, whatever the magnitudes") {
   std::mt19937 random(1);
@@ -123,29 +100,6 @@ TEST_CASE("equal boxes, boxes of floats that are neighbours, the whole range of 
   check_never_inward({box(0, denormal, denormal), box(-denormal, 0, 0)});
   check_never_inward({box(-most, most, most), box(0, 1, 1), box(-most, -most, 0)});
   check_never_inward({box(0, most, 0), box(most, most, 1e38F)});
-}
-
-TEST_CASE("a node without width is its origin, and nothing undefined is computed") {
-  ChunkBound point;
-  point.low = point.high = {3.7F, 0, -1e6F};
-  std::feclearexcept(FE_ALL_EXCEPT);
-  const ChunkNode node = quantised({point, point});
-  CHECK(std::fetestexcept(FE_INVALID | FE_DIVBYZERO) == 0);  // as the logarithm of 0 would be
-  for (int k = 0; k < 3; ++k) {
-    CHECK(node.origin[k] == point.low[k]);
-    CHECK(node.step_exponent[k] == -126);
-  }
-  // No extent either: the least exponent, and the step that stands for none.
-  CHECK(node.extent_exponent == -100);
-  for (int c = 0; c < 2; ++c) {
-    for (int k = 0; k < 3; ++k) {
-      CHECK(node.low[c][k] == 0);
-      CHECK(node.high[c][k] == 0);
-      CHECK(node.extent[c][k] == 0);
-    }
-    CHECK(child_bound(node, c).low == point.low);
-    CHECK(child_bound(node, c).high == point.high);
-  }
 }
 
 TEST_CASE("an infinite extent comes back infinite, and so do its neighbours") {

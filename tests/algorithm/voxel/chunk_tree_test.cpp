@@ -106,21 +106,6 @@ ActivatedCloud hard_cloud(unsigned seed, std::size_t count) {
 
 }  // namespace
 
-TEST_CASE("chunk tree of an empty cloud has no nodes") {
-  check_tree({}, arrange_by_chunks({}, 16), 16, Stored::kVisible);
-}
-
-TEST_CASE("chunk tree of one Gaussian is one node with one chunk") {
-  ActivatedCloud cloud;
-  cloud.gaussians.push_back({{1, 2, 3}, {0.1F, 0.2F, 0.3F}, {1, 0, 0, 0}, 0.5F});
-  const Arrangement<ChunkTree> arrangement = arrange_by_chunks(cloud, 16);
-  check_tree(cloud, arrangement, 16, Stored::kVisible);
-  const ChunkTree& tree = arrangement.table;
-  CHECK(tree.nodes.size() == 1);
-  CHECK(tree.chunk_count == 1);
-  CHECK(tree.nodes[0].count[0] == 1);
-}
-
 TEST_CASE("chunk trees of hard clouds, chunks of 1 to 256") {
   for (unsigned seed = 0; seed < 60; ++seed) {
     const ActivatedCloud cloud = hard_cloud(seed, 1 + seed * 37 % 1500);
@@ -140,14 +125,6 @@ TEST_CASE("chunk tree of equal Gaussians: full chunks, logarithmic depth") {
   const ChunkTree& tree = arrangement.table;
   CHECK(tree.chunk_count == 1250);
   CHECK(tree.depth <= 11);  // 2^11 > 1250: no deeper than a balanced binary tree
-}
-
-TEST_CASE("chunk tree leaves out what no view can show") {
-  ActivatedCloud cloud;
-  cloud.gaussians.assign(100, {{1, 2, 3}, glm::vec3(0.1F), {1, 0, 0, 0}, 0.5F});
-  for (std::size_t i = 0; i < 100; i += 2) cloud.gaussians[i].opacity = 0.003F;
-  CHECK(arrange_by_chunks(cloud, 16, Stored::kVisible).storage_order.size() == 50);
-  CHECK(arrange_by_chunks(cloud, 16, Stored::kAll).storage_order.size() == 100);
 }
 
 TEST_CASE("chunk tree is the same with one thread and with many") {
@@ -175,19 +152,4 @@ TEST_CASE("chunk tree: giants do not widen the chunks of small Gaussians") {
     }
   }
   CHECK(wide == 1);
-}
-
-TEST_CASE("bound of one Gaussian: k sqrt(Sigma_aa), by hand") {
-  // A needle of length 2 along x, turned by 45 degrees about z; opacity 0.5: k^2 = 2 ln 127.5.
-  const float half = std::sqrt(0.5F);
-  const float turn[2] = {std::cos(0.39269908F), std::sin(0.39269908F)};
-  const Gaussian<float> g{{1, 2, 3}, {2, 0, 0}, {turn[0], 0, 0, turn[1]}, 0.5F};
-  const ChunkBound bound = gaussian_bound(g);
-  const float k = std::sqrt(2 * std::log(127.5F));
-  CHECK(bound.extent.x == Approx(k * 2 * half).epsilon(1e-4));
-  CHECK(bound.extent.y == Approx(k * 2 * half).epsilon(1e-4));
-  CHECK(bound.extent.z == Approx(0).margin(1e-6));
-  CHECK(bound.scale_max == 2);
-  CHECK(bound.low == g.mean);
-  CHECK(bound.high == g.mean);
 }

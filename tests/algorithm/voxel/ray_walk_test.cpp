@@ -145,101 +145,10 @@ TEST_CASE("ray walk: the same cells as stepping, dense and sparse grids") {
   }
 }
 
-TEST_CASE("ray walk: one voxel, and a voxel that holds all") {
-  for (unsigned seed = 0; seed < 20; ++seed) {
-    compare_with_stepping(seed, 0.3F, 1.0F, {}, 1, 200);
-    compare_with_stepping(seed, 1.0F, 64.0F, {}, 50, 200);
-  }
-}
-
 TEST_CASE("ray walk: coordinates of a million") {
   for (unsigned seed = 0; seed < 10; ++seed) {
     compare_with_stepping(seed, 20.0F, 0.5F, {1e6F, -1e6F, 5e5F}, 500, 300);
   }
-}
-
-// Cells 0, 1, 2, ... along x at y = z = 0, size 1; voxel ids are in Morton order, here that of x.
-VoxelGrid row_of_cells(int count) {
-  std::vector<glm::vec3> means;
-  for (int x = 0; x < count; ++x) means.emplace_back(static_cast<float>(x) + 0.5F, 0.5F, 0.5F);
-  return arrange_by_voxels(cloud_of(means), 1.0F).table;
-}
-
-TEST_CASE("ray walk: a row of cells, by hand") {
-  const VoxelGrid grid = row_of_cells(6);
-  const GridTable table{grid};
-  RayWalk walk(RayPath<>(grid.frame), table);
-  using Met = std::vector<std::uint32_t>;
-  CHECK(traced(walk, ray_from({-3, 0.5F, 0.5F}, {1, 0, 0})) == Met{0, 1, 2, 3, 4, 5});
-  CHECK(traced(walk, ray_from({9, 0.5F, 0.5F}, {-1, 0, 0})) == Met{5, 4, 3, 2, 1, 0});
-  CHECK(traced(walk, ray_from({2.5F, 0.5F, 0.5F}, {1, 0, 0})) == Met{2, 3, 4, 5});
-  CHECK(traced(walk, ray_from({2.5F, 0.5F, 0.5F}, {-1, 0, 0})) == Met{2, 1, 0});
-  // On the face between cells 2 and 3 the camera is in 3; looking back it leaves that at once.
-  CHECK(traced(walk, ray_from({3, 0.5F, 0.5F}, {1, 0, 0})) == Met{3, 4, 5});
-  CHECK(traced(walk, ray_from({3, 0.5F, 0.5F}, {-1, 0, 0})) == Met{3, 2, 1, 0});
-  // Beside the row, on its lower face (inside) and on its upper face (outside).
-  CHECK(traced(walk, ray_from({-3, 1.5F, 0.5F}, {1, 0, 0})).empty());
-  CHECK(traced(walk, ray_from({-3, 0, 0.5F}, {1, 0, 0})) == Met{0, 1, 2, 3, 4, 5});
-  CHECK(traced(walk, ray_from({-3, 1, 0.5F}, {1, 0, 0})).empty());
-  // Away from it; across it.
-  CHECK(traced(walk, ray_from({-3, 0.5F, 0.5F}, {-1, 0, 0})).empty());
-  CHECK(traced(walk, ray_from({4.5F, 5, 0.5F}, {0, -1, 0})) == Met{4});
-  // From (0.5, 1.5) down to the right, through (1, 1) and (2, 0): of two planes crossed at one time
-  // that of x goes first, so that cells 1 and 2 are met and cell 0 is not.
-  CHECK(traced(walk, ray_from({0.5F, 1.5F, 0.5F}, {1, -1, 0})) == Met{1, 2});
-  // A direction of no length stays in its cell.
-  CHECK(traced(walk, ray_from({3.5F, 0.5F, 0.5F}, {0, 0, 0})) == Met{3});
-}
-
-TEST_CASE("ray walk: a ray along an edge of cells stays in the cells on one side") {
-  std::vector<glm::vec3> means;
-  for (int x = 0; x < 4; ++x) {
-    for (const float y : {-0.5F, 0.5F}) {
-      for (const float z : {-0.5F, 0.5F}) means.emplace_back(static_cast<float>(x) + 0.5F, y, z);
-    }
-  }
-  const auto [cloud, grid] = test::by_voxels(cloud_of(means), 1.0F);
-  const OccupiedCells cells(cloud, grid);
-  const GridTable table{grid};
-  RayWalk walk(RayPath<>(grid.frame), table);
-  const Ray ray = ray_from({-1, 0, 0}, {1, 0, 0});
-  const auto met = traced(walk, ray);
-  CHECK(met.size() == 4);  // those at y, z in [0, 1)
-  CHECK(met == cells.walk(ray));
-}
-
-TEST_CASE("ray walk: children ahead, one by one") {
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const int step : {-1, 0, 1}) {
-      for (unsigned place = 0; place < 4; ++place) {
-        std::uint64_t expected = 0;
-        for (unsigned child = 0; child < 64; ++child) {
-          const unsigned xyz[3] = {child % 4, child / 4 % 4, child / 16};
-          const int beyond = static_cast<int>(xyz[axis]) - static_cast<int>(place);
-          if (step == 0 ? beyond == 0 : beyond * step >= 0) {
-            expected |= std::uint64_t{1} << child_bit(xyz[0], xyz[1], xyz[2]);
-          }
-        }
-        CHECK(children_from(axis, step, place) == expected);
-      }
-    }
-  }
-}
-
-TEST_CASE("ray walk: the block that is left is the largest with nothing ahead") {
-  VoxelNode node;
-  const auto block = [&](const glm::ivec3& step) { return empty_block(node, {1, 1, 1}, step, 2); };
-  CHECK(block({1, 1, 1}) == 4);
-  node.occupied = std::uint64_t{1} << child_bit(1, 1, 1);  // itself: it has been looked at
-  CHECK(block({1, 1, 1}) == 4);
-  node.occupied |= std::uint64_t{1} << child_bit(3, 2, 1);  // ahead, in another octant
-  CHECK(block({1, 1, 1}) == 3);
-  CHECK(block({1, 1, 0}) == 3);
-  CHECK(block({-1, 1, 1}) == 4);
-  CHECK(block({1, 0, 1}) == 4);
-  node.occupied |= std::uint64_t{1} << child_bit(0, 1, 1);  // its neighbour in the octant
-  CHECK(block({1, 1, 1}) == 3);
-  CHECK(block({-1, 1, 1}) == 2);
 }
 
 TEST_CASE("ray walk: empty space is crossed in few steps") {
@@ -257,37 +166,6 @@ TEST_CASE("ray walk: empty space is crossed in few steps") {
   CHECK(met == std::vector<std::uint32_t>{0, 1});
   // At most three empty siblings on each of the levels on the way up and on the way down.
   CHECK(steps <= static_cast<std::uint32_t>(10 * grid.frame.levels));
-}
-
-TEST_CASE("ray sampling: finds what the walk finds, in its order, and with fine steps nearly all") {
-  std::mt19937 random(5);
-  std::vector<glm::vec3> means;
-  for (int i = 0; i < 500; ++i) means.push_back(in_cube(random, 10));
-  const ActivatedCloud cloud = cloud_of(means);
-  const VoxelGrid grid = arrange_by_voxels(cloud, 1.0F).table;
-  const GridTable table{grid};
-  RayWalk walk(RayPath<>(grid.frame), table);
-  RayWalk coarse(SamplePath(grid.frame, 0.5F), table), fine(SamplePath(grid.frame, 0.01F), table);
-  std::size_t exact = 0, by_coarse = 0, by_fine = 0;
-  for (int i = 0; i < 1000; ++i) {
-    const glm::vec3 origin = in_cube(random, 20);
-    const Ray ray = ray_from(origin, in_cube(random, 8) - origin);
-    const auto all = traced(walk, ray);
-    exact += all.size();
-    for (auto* sampling : {&coarse, &fine}) {
-      const auto some = traced(*sampling, ray);
-      (sampling == &coarse ? by_coarse : by_fine) += some.size();
-      // A subsequence.
-      auto at = all.begin();
-      for (const std::uint32_t voxel : some) {
-        at = std::find(at, all.end(), voxel);
-        REQUIRE(at != all.end());
-      }
-    }
-  }
-  CHECK(100 * by_fine >= 98 * exact);
-  CHECK(10 * by_coarse >= 7 * exact);
-  CHECK(by_coarse < by_fine);
 }
 
 TEST_CASE("cell samples: with fine steps what the walk finds, and the renaming table the same") {
@@ -386,22 +264,6 @@ TEST_CASE("renaming table: a box with too many cells is refused by its form") {
   const VoxelGrid fine = arrange_by_voxels(cloud, 0.001F).table;
   CHECK_THROWS_WITH(renaming_table(fine, RenamingForm::kHashed),
                     Catch::Contains("57 bits, expected at most 40"));
-}
-
-TEST_CASE("pixel ray: through the middle of the frame along the camera's z axis") {
-  Camera camera;
-  camera.width = 5;
-  camera.height = 3;
-  camera.focal_x = camera.focal_y = 2;
-  camera.position = {1, 2, 3};
-  const View<float> view = make_view<float>(camera);
-  const Ray middle = pixel_ray(view, 2, 1);
-  CHECK(middle.origin == glm::vec3(1, 2, 3));
-  CHECK(middle.direction == glm::vec3(0, 0, 1));
-  CHECK(middle.step == glm::ivec3(0, 0, 1));
-  // Two columns to the left are -2 / 2 in x.
-  CHECK(pixel_ray(view, 0, 1).direction == glm::vec3(-1, 0, 1));
-  CHECK(pixel_ray(view, 2, 2).direction == glm::vec3(0, 0.5F, 1));
 }
 
 }  // namespace

@@ -187,26 +187,6 @@ TEST_CASE("voxel grid: nothing is sized by the dense grid") {
   check_grid(cloud, arrangement, Stored::kVisible);
 }
 
-TEST_CASE("voxel grid: empty scenes, and scenes that nobody can see") {
-  CHECK(arrange_by_voxels({}, 1.0F).table.nodes.empty());
-  ActivatedCloud cloud;
-  cloud.gaussians = {at(0, 0, 0, 0.0F), at(1, 1, 1, 0.003F)};
-  CHECK(arrange_by_voxels(cloud, 1.0F).storage_order.empty());
-  CHECK(arrange_by_voxels(cloud, 1.0F, Stored::kAll).storage_order.size() == 2);
-}
-
-TEST_CASE("voxel grid: one Gaussian makes one voxel of one root") {
-  ActivatedCloud cloud;
-  cloud.gaussians = {at(-7.3F, 2.1F, 0.0F)};
-  const VoxelGrid grid = arrange_by_voxels(cloud, 0.5F).table;
-  CHECK(grid.nodes.size() == 1);
-  CHECK(grid.frame.levels == 1);
-  CHECK(grid.frame.origin_cell == glm::ivec3(-15, 4, 0));
-  CHECK(grid.nodes[0].occupied == 1);
-  REQUIRE(grid.voxels.size() == 1);
-  CHECK(grid.voxels[0].count == 1);
-}
-
 TEST_CASE("voxel grid: a million cells an axis at most, and the message says what fits") {
   ActivatedCloud cloud;
   cloud.gaussians = {at(0, 0, 0), at(1048576, 0, 0)};

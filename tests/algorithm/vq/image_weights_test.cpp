@@ -98,18 +98,6 @@ TEST_CASE("image weights: 0.7 of the squared shares of pixels and 0.3 of the siz
   }
 }
 
-TEST_CASE("image weights: a Gaussian alone on a pixel, by hand") {
-  // One pixel, opacity 0.5 at its centre: (T alpha)^2 = 1/4 for the one in front, 1/16 behind.
-  GaussianCloud cloud;
-  cloud.sh_degree = 0;
-  test::add_ball(cloud, {0, 0, 1}, 0.5, 0.5, {1, 1, 1});
-  test::add_ball(cloud, {0, 0, 2}, 1.0, 0.5, {1, 1, 1});
-  const std::vector<float> weights = image_weights(activate(cloud), {forward_camera(1, 1, 1000)});
-  const double sizes[] = {0.25, 1.0};
-  CHECK(weights[0] == Approx(0.7 * 0.25 / 0.15625 + 0.3 * sizes[0] / 0.625).epsilon(1e-4));
-  CHECK(weights[1] == Approx(0.7 * 0.0625 / 0.15625 + 0.3 * sizes[1] / 0.625).epsilon(1e-4));
-}
-
 TEST_CASE("image weights: without cameras, or with ones that see nothing, by size") {
   const ActivatedCloud cloud = small_cloud(4);
   const std::vector<double> sizes = capped_sizes(cloud);
@@ -172,8 +160,6 @@ TEST_CASE("image weights: large pictures are rendered smaller") {
   const Camera half = forward_camera(2048, 512, 1000);
   CHECK(image_weights(cloud, {large}) == image_weights(cloud, {half}));
 }
-
-TEST_CASE("image weights: nothing") { CHECK(image_weights({}, {}).empty()); }
 
 }  // namespace
 }  // namespace sgs

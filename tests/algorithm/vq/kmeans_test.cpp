@@ -111,37 +111,9 @@ TEST_CASE("k-means: at convergence each centroid is the weighted mean of its poi
   CHECK(mean_error / total <= 1.001e-3 * result.mean_squared_error);
 }
 
-TEST_CASE("k-means: two pairs of points give their weighted means to the bit") {
-  const PointSet points{1, {0, 1, 100, 104}, {3, 1, 1, 3}};
-  const KMeansResult result = kmeans(points, config_of(2, 20));
-  const std::size_t low = result.centroids[0] < result.centroids[1] ? 0 : 1;
-  CHECK(result.centroids[low] == 0.25F);
-  CHECK(result.centroids[1 - low] == 103.0F);
-  CHECK(result.labels[0] == low);
-  CHECK(result.labels[3] == 1 - low);
-  // 3 (1/4)^2 + (3/4)^2 + 3^2 + 3 1^2 over 8
-  CHECK(result.mean_squared_error == Approx(12.75 / 8));
-}
-
 bool same(const KMeansResult& a, const KMeansResult& b) {
   return a.centroids == b.centroids && a.labels == b.labels && a.iterations == b.iterations &&
          a.mean_squared_error == b.mean_squared_error;
-}
-
-TEST_CASE("k-means: the same bits for the same seed and any number of threads") {
-  for (const int dims : {3, 12}) {
-    const PointSet points = clustered(7, 30000, dims, 60);
-    KMeansConfig config = config_of(100, 8, 3);
-    config.training_points = 10000;
-    std::vector<KMeansResult> results;
-    for (const std::size_t threads : {1U, 2U, 4U, 4U}) {
-      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-      results.push_back(kmeans(points, config));
-    }
-    for (const KMeansResult& result : results) CHECK(same(result, results[0]));
-    config.seed = 4;
-    CHECK_FALSE(same(kmeans(points, config), results[0]));
-  }
 }
 
 TEST_CASE("k-means: the error that is reported never rises") {
@@ -273,15 +245,6 @@ TEST_CASE("k-means: weights of 0 for all count as equal weights") {
   CHECK(kmeans(points, drawn).entries(2) == 20);
 }
 
-TEST_CASE("k-means: fewer points of any weight than entries") {
-  PointSet points = clustered(9, 500, 2, 10);
-  for (std::size_t i = 0; i < points.size(); ++i) points.weights[i] = i % 100 == 0 ? 1 : 0;
-  const KMeansResult result = kmeans(points, config_of(20, 20));
-  CHECK(result.entries(2) == 5);
-  CHECK(result.mean_squared_error == 0);
-  CHECK(result.labels.size() == 500);
-}
-
 TEST_CASE("k-means: weights from the smallest to the largest float") {
   PointSet points = clustered(10, 500, 2, 10);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -314,19 +277,6 @@ TEST_CASE("k-means: values whose squares overflow get entries, the others are se
   }
   CHECK(result.iterations > 1);
   CHECK(error / weight < 1.5 * without.mean_squared_error);
-}
-
-TEST_CASE("k-means: more huge values than entries leave a finite error") {
-  PointSet points{1, {}, {}};
-  Random random(12);
-  for (int i = 0; i < 500; ++i) {
-    points.values.push_back(3e38F * uniform(random, -1, 1));
-    points.weights.push_back(1e30F);
-  }
-  const KMeansResult result = kmeans(points, config_of(16, 20));
-  CHECK(result.entries(1) == 16);
-  CHECK(std::isfinite(result.mean_squared_error));
-  for (const float centroid : result.centroids) CHECK(std::isfinite(centroid));
 }
 
 }  // namespace

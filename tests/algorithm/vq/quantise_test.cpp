@@ -64,16 +64,6 @@ TEST_CASE("quantise: no more entries than configured, an index for each Gaussian
   }
 }
 
-TEST_CASE("quantise: words of an entry") {
-  CHECK(codebook_words(Codebook::kScale, 3) == 3);
-  CHECK(codebook_words(Codebook::kRotation, 3) == 4);
-  CHECK(codebook_words(Codebook::kDc, 3) == 3);
-  CHECK(codebook_words(Codebook::kSh, 0) == 0);
-  CHECK(codebook_words(Codebook::kSh, 1) == 9);
-  CHECK(codebook_words(Codebook::kSh, 2) == 24);
-  CHECK(codebook_words(Codebook::kSh, 3) == 45);
-}
-
 TEST_CASE("quantise: ratios fall from exactly 1, quaternions have length 1") {
   const ActivatedCloud cloud = cloud_of(2, 3000, 1);
   const QuantisedCloud quantised =
@@ -159,19 +149,6 @@ TEST_CASE("quantise: the same for one and four threads, another seed gives other
   VqConfig other = test::small_config();
   other.seed = 2;
   CHECK(quantise(cloud, even(cloud), unknown(cloud), other).codebooks != results[0].codebooks);
-}
-
-TEST_CASE("quantise: progress of each codebook, errors that do not rise") {
-  const ActivatedCloud cloud = cloud_of(6, 3000, 1);
-  std::array<double, kCodebookCount> last;
-  last.fill(std::numeric_limits<double>::infinity());
-  quantise(cloud, even(cloud), unknown(cloud), test::small_config(),
-           [&](Codebook codebook, std::uint32_t, double error) {
-             double& before = last[static_cast<std::size_t>(codebook)];
-             CHECK(error <= before * (1 + 1e-6));
-             before = error;
-           });
-  for (const double error : last) CHECK(std::isfinite(error));
 }
 
 TEST_CASE("quantise: a heavy Gaussian is served at the cost of light ones") {

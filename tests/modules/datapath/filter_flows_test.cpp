@@ -121,19 +121,6 @@ TEST_CASE("filter flows: no Gaussian takes more of any operation than the longes
   CHECK(as_long > 0);
 }
 
-TEST_CASE("filter flows: a higher degree costs colour and nothing else") {
-  for (int degree = 1; degree <= 3; ++degree) {
-    CAPTURE(degree);
-    const FineFlow lower = fine_flow(longest_case(), {degree - 1});
-    const FineFlow higher = fine_flow(longest_case(), {degree});
-    CHECK(macs(higher.colour) > macs(lower.colour));
-    CHECK(macs(higher.geometry) == macs(lower.geometry));
-    CHECK(macs(higher.group_test) == macs(lower.group_test));
-    CHECK(macs(higher.all) ==
-          macs(higher.geometry) + macs(higher.group_test) + macs(higher.colour));
-  }
-}
-
 TEST_CASE("filter flows: the test against the group waits for the box") {
   for (const std::uint32_t words : {3U, 4U}) {
     CAPTURE(words);

@@ -2,7 +2,6 @@
 #include "modules/datapath/lane_steps.h"
 
 #include <catch2/catch.hpp>
-#include <map>
 #include <vector>
 
 #include "algorithm/splat/counting.h"
@@ -19,81 +18,6 @@ LongestPath path_of(const DataFlow& flow, std::size_t first, std::size_t last,
 OperationCounts all(const DataFlow& flow) { return flow.counts(0, flow.size()); }
 
 }  // namespace
-
-TEST_CASE("lane macs: a sum is free behind a product that nothing else takes") {
-  DataFlow flow;
-  const Counting a = input(flow, 2), b = input(flow, 3), c = input(flow, 4);
-  const Counting x = input(flow, 5), y = input(flow, 6), z = input(flow, 7);
-  CHECK((a * x + b * y + c * z).value == 56);
-  CHECK(folded_macs(all(flow)) == 3);
-  const Counting product = a * b;
-  CHECK((product + c).value == 10);
-  CHECK(folded_macs(all(flow)) == 3 + 1);
-  CHECK((product - c).value == 2);
-  CHECK(folded_macs(all(flow)) == 3 + 3);
-}
-
-TEST_CASE("lane macs: quotients share the reciprocal of their divisor") {
-  DataFlow flow;
-  const Counting a = input(flow, 6), b = input(flow, 9), c = input(flow, 3);
-  static_cast<void>(a / c);
-  static_cast<void>(b / c);
-  CHECK(folded_macs(all(flow)) == kReciprocalMacs + 2 * kQuotientMacs);
-  CHECK(seeds(all(flow)) == 1);
-}
-
-TEST_CASE("lane macs: functions, comparisons and roundings apart") {
-  DataFlow flow;
-  const Counting a = input(flow, 2.5F), b = input(flow, 4);
-  static_cast<void>(sqrt_of(b));
-  static_cast<void>(log_of(b));
-  static_cast<void>(exp_of(a));
-  CHECK(a < b);
-  static_cast<void>(max_of(a, b));
-  CHECK(isfinite(a));
-  CHECK(truncated_index(a, 10).value == 2);  // above 0? below 10? then toward zero
-  static_cast<void>(floor(a));
-  CHECK(folded_macs(all(flow)) == kSquareRootMacs + kLogarithmMacs + kExponentialMacs);
-  CHECK(comparisons(all(flow)) ==
-        5 + 2 * kRoundingComparisons + kLogarithmComparisons + kExponentialComparisons);
-}
-
-TEST_CASE("lane macs: whole numbers pass comparators until they are numbers again") {
-  DataFlow flow;
-  const Counting a = input(flow, 13.5F);
-  const CountingIndex moved = truncated_index(a, 100) * 4 / 8 + 3 - 1;
-  static_cast<void>(with_bits(moved, 7));
-  CHECK(moved < CountingIndex(9));
-  CHECK(number_of<Counting>(moved).value == 8.0F);
-  CHECK(folded_macs(all(flow)) == 0);
-  CHECK(comparisons(all(flow)) == 2 + 1 + kRoundingComparisons + kConversionComparisons + 2);
-  // Down, two sums, a number: shifts and masks are wires.
-  CHECK(path_of(flow, 0, flow.size(), kLatencies) == LongestPath{0, 3 + 2 + 2, 0});
-}
-
-TEST_CASE("lane macs: each degree of spherical harmonics takes more than the one below") {
-  std::uint32_t below = 0;
-  for (int degree = 0; degree <= 3; ++degree) {
-    CAPTURE(degree);
-    DataFlow flow;
-    Counting basis[16];
-    sh_basis(degree, input(flow, 0.1F), input(flow, 0.2F), input(flow, 0.3F), basis);
-    const std::uint32_t macs = folded_macs(all(flow));
-    CHECK((degree == 0 ? macs == 0 : macs > below));
-    below = macs;
-  }
-}
-
-TEST_CASE("lane steps: as many of a routine as it is counted") {
-  DataFlow flow;
-  const Counting a = input(flow, 2), b = input(flow, 3);
-  static_cast<void>(exp(sqrt(a) / b) + log(b) / Counting(3.0F));
-  std::map<StepBy, std::uint32_t> count;
-  for (const LaneStep& step : part_of(flow, 0, flow.size()).steps(kLatencies)) ++count[step.by];
-  CHECK(count[StepBy::kLane] == folded_macs(all(flow)));
-  CHECK(count[StepBy::kComparator] == comparisons(all(flow)));
-  CHECK(count[StepBy::kTable] == seeds(all(flow)));
-}
 
 TEST_CASE("longest path: what waits for what, by hand") {
   struct Row {

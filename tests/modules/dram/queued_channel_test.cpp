@@ -1,4 +1,4 @@
-// Scheduling: unloaded latencies, policies, write drain, refresh and power states of one channel.
+// Scheduling, refresh and power states of one channel.
 #include "modules/dram/queued_channel.h"
 
 #include <catch2/catch.hpp>
@@ -17,44 +17,12 @@ using test::quiet_config;
 
 constexpr std::uint64_t kData = 12 + 5 + 4;  // RL + tDQSCKmax + BL/2
 
-TEST_CASE("queued channel: unloaded latencies are the sums of their terms") {
-  for (const std::uint32_t latency : {0u, 7u}) {
-    DramConfig config = quiet_config();
-    config.front_end_ns = 1.25 * latency;
-    config.back_end_ns = 1.25 * 2 * latency;
-    Bench b(config);
-    b.read(1000, 2, 5);
-    CHECK(b.completion() == 1000 + 3 * latency + 15 + kData);  // closed: tRCD
-    b.read(1000000, 2, 5);
-    b.channel.advance(1100000);
-    QueuedChannel::Completion c{};
-    REQUIRE(b.channel.take_completion(kNever, c));
-    CHECK(c.cycle == 1000000 + 3 * latency + kData);  // hit
-    b.read(1200000, 2, 6);
-    b.channel.advance(1300000);
-    REQUIRE(b.channel.take_completion(kNever, c));
-    CHECK(c.cycle == 1200000 + 3 * latency + 15 + 15 + kData);  // conflict: tRPpb + tRCD
-    CHECK(b.channel.rows().of(RowOutcome::kMiss) == 1);
-    CHECK(b.channel.rows().of(RowOutcome::kHit) == 1);
-    CHECK(b.channel.rows().of(RowOutcome::kConflict) == 1);
-  }
-}
-
 TEST_CASE("queued channel: the shorter strobe brings data three cycles earlier") {
   DramConfig config = quiet_config();
   config.read_strobe = ReadStrobe::kMin;
   Bench b(config);
   b.read(0, 0, 0);
   CHECK(b.completion() == 15 + 12 + 2 + 4);
-}
-
-TEST_CASE("queued channel: a run of bursts goes out every tCCD") {
-  Bench b(quiet_config());
-  b.push(0, Direction::kRead, 0, 0, 16, 4);
-  b.channel.advance(1000);
-  CHECK(b.sink.text() == "ACT@0 RD@15 RD@19 RD@23 RD@27");
-  CHECK(b.sink.records[1].burst == 16);
-  CHECK(b.sink.records[4].burst == 19);
 }
 
 TEST_CASE("queued channel: next_completion is a bound that is never late") {
@@ -66,21 +34,6 @@ TEST_CASE("queued channel: next_completion is a bound that is never late") {
   CHECK(b.channel.next_completion() <= 100 + 15 + kData);
   b.channel.advance(116);
   CHECK(b.channel.next_completion() == 100 + 15 + kData);
-}
-
-TEST_CASE("scheduling: FR-FCFS lets a hit overtake, FCFS does not") {
-  for (const SchedulerKind kind : {SchedulerKind::kFrFcfs, SchedulerKind::kFcfs}) {
-    DramConfig config = quiet_config();
-    config.scheduler = kind;
-    Bench b(config);
-    b.read(0, 0, 1, 1);   // opens row 1
-    b.read(20, 0, 2, 2);  // conflict
-    b.read(20, 0, 1, 3);  // hit, younger
-    const std::vector<std::uintptr_t> expected = kind == SchedulerKind::kFrFcfs
-                                                     ? std::vector<std::uintptr_t>{1, 3, 2}
-                                                     : std::vector<std::uintptr_t>{1, 2, 3};
-    CHECK(b.order() == expected);
-  }
 }
 
 TEST_CASE("scheduling: the age cap ends a stream of hits") {
@@ -103,40 +56,6 @@ TEST_CASE("scheduling: the age cap ends a stream of hits") {
   CHECK(victim_completion(1000) > 230);
   CHECK(victim_completion(1000) < 270);
   CHECK(victim_completion(1000000) > 990);
-}
-
-TEST_CASE("scheduling: writes wait for the high watermark and stop at the low one") {
-  DramConfig config = quiet_config();
-  config.write_high_watermark = 8;
-  config.write_low_watermark = 3;
-  config.age_cap_cycles = 100000;
-  Bench b(config);
-  for (std::uint32_t i = 0; i < 7; ++i) b.push(0, Direction::kWrite, 1, 5, i);
-  for (std::uint32_t i = 0; i < 20; ++i) b.push(0, Direction::kRead, 0, 5, i);
-  b.channel.advance(60);
-  CHECK(b.sink.count(Command::kWrite) == 0);
-  CHECK(b.sink.count(Command::kRead) > 5);
-  b.push(60, Direction::kWrite, 1, 5, 7);  // the eighth
-  b.channel.advance(100000);
-  // Five writes bring eight down to three; then reads to their end, then the rest.
-  std::string kinds;
-  for (const CommandRecord& r : b.sink.records)
-    if (is_read(r.command) || is_write(r.command)) {
-      const char kind = is_read(r.command) ? 'R' : 'W';
-      if (kinds.empty() || kinds.back() != kind) kinds += kind;
-    }
-  CHECK(kinds == "RWRW");
-  std::size_t first_batch = 0;
-  bool writing = false;
-  for (const CommandRecord& r : b.sink.records) {
-    if (is_write(r.command)) {
-      writing = true;
-      ++first_batch;
-    } else if (writing && is_read(r.command)) {
-      break;
-    }
-  }
-  CHECK(first_batch == 5);
 }
 
 TEST_CASE("scheduling: an aged write is not starved by reads") {
@@ -220,55 +139,6 @@ TEST_CASE("scheduling: no read goes before an older write to the same bytes") {
   CHECK(behind > 1000);
 }
 
-TEST_CASE("refresh: idle time is caught up with, one each tREFI") {
-  DramConfig config = quiet_config();
-  config.refresh = RefreshMode::kAllBank;
-  Bench b(config);
-  b.channel.advance(3120 * 10 + 1);
-  CHECK(b.sink.count(Command::kRefreshAll) == 10);
-  for (std::size_t i = 0; i < b.sink.records.size(); ++i)
-    CHECK(b.sink.records[i].cycle == 3120 * (i + 1));
-}
-
-TEST_CASE("refresh: a request that comes during one waits for its end") {
-  DramConfig config = quiet_config();
-  config.refresh = RefreshMode::kAllBank;
-  Bench b(config);
-  b.read(3130, 0, 0);
-  b.channel.advance(4000);
-  CHECK(b.sink.text() == "REFA@3120 ACT@3224 RD@3239");
-}
-
-TEST_CASE("refresh: postponed ones come back to back when they must, or as soon as it is quiet") {
-  DramConfig config = quiet_config();
-  config.refresh = RefreshMode::kAllBank;
-  config.refresh_postpone_max = 3;
-  Bench busy(config);
-  std::uint64_t busy_cycle = 0;
-  for (; busy_cycle < 3120 * 4; busy_cycle += 20) busy.read(busy_cycle, 0, 1);
-  CHECK(busy.sink.count(Command::kRefreshAll) == 0);
-  for (; busy_cycle < 3120 * 5; busy_cycle += 20) busy.read(busy_cycle, 0, 1);
-  busy.channel.advance(busy_cycle);
-  CHECK(busy.sink.count(Command::kRefreshAll) == 4);
-  Bench quiet(config);
-  for (std::uint64_t cycle = 0; cycle < 3120 + 500; cycle += 20) quiet.read(cycle, 0, 1);
-  quiet.channel.advance(3120 + 700);
-  CHECK(quiet.sink.count(Command::kRefreshAll) == 1);
-}
-
-TEST_CASE("refresh: per bank goes round the banks and leaves the others working") {
-  DramConfig config = quiet_config();
-  config.refresh = RefreshMode::kPerBank;
-  Bench b(config);
-  b.channel.advance(390 * 9);
-  REQUIRE(b.sink.count(Command::kRefreshBank) == 8);
-  for (std::uint32_t i = 0; i < 8; ++i) CHECK(b.sink.records[i].bank == i);
-  b.sink.records.clear();
-  b.read(390 * 9 + 1, 3, 0);  // bank 0 refreshes at 3510
-  b.channel.advance(390 * 9 + 100);
-  CHECK(b.sink.text() == "REFB@3510 ACT@3518 RD@3533");
-}
-
 // A channel whose controller names the bank of a refresh, or else its device.
 struct RefreshBench {
   RefreshBench(const DramConfig& config, RefreshOrder order)
@@ -290,59 +160,6 @@ struct RefreshBench {
   test::RecordingSink sink;
   QueuedChannel channel;
 };
-
-TEST_CASE("refresh: one that may go to any bank avoids those in use, as often as is allowed") {
-  for (const std::int32_t most : {-1, 0, 3, 8}) {
-    DramConfig config = quiet_config();
-    config.refresh = RefreshMode::kPerBank;
-    config.refresh_postpone_max = most;
-    RefreshBench b(config, RefreshOrder::kAny);
-    // Requests for banks 0 to 2 without a gap, until more are owed after the first round.
-    std::uint64_t cycle = 1;
-    for (std::uint32_t i = 0; cycle < 390 * 30; ++i) {
-      b.channel.advance(cycle);
-      while (b.channel.full(Direction::kRead))
-        b.channel.advance(cycle = b.channel.next_decision() + 1);
-      ChannelRequest request;
-      request.bank = i % 3;
-      request.row = i;
-      request.bursts = 1;
-      b.channel.push(request, cycle);
-    }
-    const auto refreshes = b.refreshes();
-    REQUIRE(refreshes.size() > 8);
-    INFO("at most " << most);
-    // Idle banks at once, one each tREFIpb; banks in use when more are owed than may be.
-    for (std::uint32_t i = 0; i < 5; ++i) {
-      CHECK(refreshes[i].second == i + 3);
-      CHECK(refreshes[i].first / 390 == i + 1);
-    }
-    const std::uint32_t late = most < 0 ? 8 : static_cast<std::uint32_t>(most);
-    for (std::uint32_t i = 5; i < 8; ++i) {
-      CHECK(refreshes[i].second == i - 5);
-      CHECK(refreshes[i].first / 390 == i + 1 + late);
-    }
-  }
-}
-
-TEST_CASE("refresh: a request that is not through the front end is not seen") {
-  const auto refreshed = [](RefreshOrder order, std::uint64_t arrival) {
-    DramConfig config = quiet_config();
-    config.refresh = RefreshMode::kPerBank;
-    config.refresh_postpone_max = 2;
-    config.front_end_ns = 10;  // 8 cycles
-    RefreshBench b(config, order);
-    b.channel.advance(arrival);
-    b.channel.push(ChannelRequest{}, arrival);  // of bank 0
-    b.channel.advance(600);
-    return b.refreshes().at(0);
-  };
-  using Refresh = std::pair<std::uint64_t, std::uint32_t>;
-  CHECK(refreshed(RefreshOrder::kAny, 383) == Refresh{390, 0});
-  CHECK(refreshed(RefreshOrder::kAny, 382) == Refresh{390, 1});
-  CHECK(refreshed(RefreshOrder::kInTurn, 383) == Refresh{390, 0});
-  CHECK(refreshed(RefreshOrder::kInTurn, 382) > Refresh{390, 0});  // postponed
-}
 
 TEST_CASE("refresh: after self-refresh the device counts its banks from the first again") {
   for (const RefreshOrder order : {RefreshOrder::kInTurn, RefreshOrder::kAny}) {

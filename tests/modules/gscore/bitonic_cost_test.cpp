@@ -52,23 +52,5 @@ TEST_CASE("bitonic cost: as a unit that is stepped through, for lists of every l
   }
 }
 
-TEST_CASE("bitonic cost: by hand") {
-  CHECK(bitonic_cost(0).cycles == 0);
-  CHECK(bitonic_cost(1).cycles == 0);
-  // Read, ten stages, written.
-  CHECK(bitonic_cost(2).cycles == 12);
-  CHECK(bitonic_cost(16).cycles == 12);
-  CHECK(bitonic_cost(16).compare_exchanges == 80);
-  // Four turns, one every four cycles; the last is read, passes four stages, is written.
-  CHECK(bitonic_cost(32).cycles == 13 + 3 * 4 + 6);
-  CHECK(bitonic_cost(32).compare_exchanges == 2 * 80 + 3 * 32);
-  // A whole pair and a run alone, then a pair of unequal ones.
-  CHECK(bitonic_cost(48).cycles == 14 + (3 * 4 + 6) + (5 * 4 + 6));
-  CHECK(bitonic_cost(48).merged == 2 * 48);
-  // 256: eight pairs in two rounds of four, four pairs, two, one.
-  CHECK(bitonic_cost(256).cycles ==
-        27 + (7 * 4 + 3 + 6) + (7 * 4 + 3 + 6) + (15 * 4 + 1 + 6) + (31 * 4 + 6));
-}
-
 }  // namespace
 }  // namespace sgs::test

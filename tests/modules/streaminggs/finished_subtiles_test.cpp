@@ -57,24 +57,5 @@ TEST_CASE("finished sub-tiles: a reach beyond the group's edge is cut to the gro
   CHECK(threads.run_all());
 }
 
-TEST_CASE("finished sub-tiles: a bit each, all at once") {
-  struct Row {
-    PixelSize group;
-    std::uint32_t bytes, comparators;
-  };
-  for (const Row& row : {Row{{128, 128}, 32 * 32 / 8, 32},
-                         {{100, 100}, 25 * 4, 25},
-                         {{192, 192}, 48 * 6, 48 * 2},
-                         {{160, 120}, 30 * 5, 30 * 2},
-                         {{120, 160}, 40 * 4, 40},
-                         {{4, 64}, 16, 16},
-                         {{320, 180}, 45 * 10, 45 * 3}}) {
-    INFO(row.group.width << " x " << row.group.height);
-    CHECK(mask_use(row.group).total_bytes() == row.bytes);
-    CHECK(mask_bits(row.group) == 8 * row.bytes);
-    CHECK(mask_comparators(row.group) == row.comparators);
-  }
-}
-
 }  // namespace
 }  // namespace sgs

@@ -74,28 +74,6 @@ TEST_CASE(
   CHECK(folded_macs(chunk_flow(behind).counts()) < folded_macs(work) / 2);
 }
 
-TEST_CASE(
-    "rays, counted: a step takes three plane times, and two positions with the planes about them") {
-  const OperationCounts step = ray_step_flow(longest_step_case()).counts();
-  // A plane's time is two products, a position one and a quotient.
-  CHECK(step.multiplies == (3 + 2 * 2) * 2 + 2);
-  CHECK(step.divisions == 2);
-  CHECK(step.divisors == 0);       // the voxel size is the same for all
-  CHECK(step.roundings == 2 * 2);  // to whole, to a number of a cell
-  CHECK(step.conversions == 3 + 2 * (2 + 2));
-  CHECK(folded_macs(step) < 100);
-  // A cell's plane is an index more and a number, its time a product and a sum in one lane and
-  // another product, the earliest of three times two comparisons.
-  constexpr OperationLatencies kEach = {3, 1, 1};
-  const LongestPath cell = {2, 1 + 2 + 2, 0};
-  CHECK(ray_step_flow(cell_step_case()).longest_path(kEach) == cell);
-  // From there to the position and its quotient, down, beside the root, into the block, to an index
-  // and on to its plane, whose time is compared; the cell before or behind it.
-  const LongestPath to_position = {1 + 3 + 1, 3 + 2 + 3, 0}, to_time = {2, 1 + 2 + 1, 0};
-  const LongestPath step_path = ray_step_flow(longest_step_case()).longest_path(kEach);
-  CHECK(step_path == cell + to_position + to_time);
-}
-
 TEST_CASE("rays, counted: no step takes more than the longest, wherever it begins") {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> place(0.01F, 11.19F), slope(0.01F, 1);
@@ -116,16 +94,6 @@ TEST_CASE("rays, counted: no step takes more than the longest, wherever it begin
     as_long += folded_macs(work) == folded_macs(longest) ? 1 : 0;
   }
   CHECK(as_long > 0);
-}
-
-TEST_CASE(
-    "rays, counted: a ray begins with a direction, its reciprocals and a plane of each axis") {
-  const OperationCounts begin = pixel_ray_flow().counts();
-  CHECK(begin.divisions == 2 + 3 + 2);  // the pixel's place, three reciprocals, two positions
-  CHECK(begin.divisors == 3);           // the others are the same for all
-  CHECK(begin.multiplies >= 6 + 3 + 2);
-  CHECK(begin.conversions == 2 * 2);  // of the planes that decide; the root's are the same for all
-  CHECK(folded_macs(begin) < 100);
 }
 
 }  // namespace

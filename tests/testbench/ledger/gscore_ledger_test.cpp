@@ -1,6 +1,5 @@
-// The ledger of the tile-centric machine: what stands beside its lanes, what that did, and how
-// large its memories are, by hand from what the hardware is said to be (modules/gscore/README.md).
-#include <algorithm>
+// The ledger of the tile-centric machine: what stands beside its lanes and what that did, by hand
+// from what the hardware is said to be (modules/gscore/README.md).
 #include <catch2/catch.hpp>
 #include <string>
 #include <vector>
@@ -226,89 +225,6 @@ TEST_CASE("ledger: gscore's lanes have had what its units counted") {
       if (path.datapath == std::string("conic") && build.pixel_bits == 24) continue;
       INFO(path.datapath);
       CHECK(double(items(frame, path.datapath)) == of(frame, path.units, path.counter));
-    }
-  }
-}
-
-// Memory of a use: entries of so many bytes, each an access.
-struct Memory {
-  const char* use;
-  std::uint64_t count, entries, bytes;
-  std::uint32_t width_bytes, banks = 1;
-  SramPeak peak = kOneOfEach;
-};
-
-// Pipelines ahead of a queue hold one entry for each turn of their depth.
-const std::vector<Memory> kAsPublished = {
-    {"first halves", 4, 4 * 8, 16, 16, 2, {1, 2}},
-    {"second halves", 4, 16, 224, 32},  // at SH degree 3, by bursts
-    {"slices", 4, 4, 8, 8},
-    {"candidates", 4, 16 + 9, 20, 20},  // 25 cycles of culling, an item every third
-    {"candidates of a slice", 4, 8, 20, 20},
-    {"fetched candidates", 4, 16 + 1, 20, 20},
-    {"outstanding transactions", 21, 48, 8, 8},  // two of a CCU and of a core's rendering, ...
-    {"ends of lists", 1, 15, 8, 8},
-    {"lines of lists", 1, 6, 32, 8, 4, {4, 4}},
-    {"tiles of lines", 1, 6, 5, 5},  // tile 4 bits, two of 3, a line of 2^23
-    {"records to write", 1, 8, 32, 32},
-    {"passes to test", 1, 1, 8, 8},
-    {"listed tiles", 1, 4 + 15 + 16, 6, 6},
-    {"records under test", 1, 4 + 15 + 16 + 2, 24, 24},
-    {"keys under test", 1, 4 + 15 + 16 + 2, 2, 2},
-    {"boxes under test", 1, 4 + 15 + 16 + 2, 40, 40},
-    {"list blocks", 4, 2, 512, 32},
-    {"lists on chip", 4, 2 * 512, 6, 6, 16, {16, 1}},
-    {"keys of subsets", 4, 2 * 512, 4, 4, 16, {16, 1}},
-    {"lines of subsets", 4, 8, 32, 8, 4, {4, 4}},
-    {"subsets in memory", 4, 7 * 8, 17, 17},
-    {"subsets on chip", 4, 7 * 8, 8, 8},
-    {"chunk", 4, 2 * 256, 4, 4, 16, {8, 16}},
-    {"loaded lists", 4, 2 + 2, 16, 16},
-    {"records", 4, 48, 24, 24},
-    {"fetched entries", 4, 48 + 1, 8, 8},
-    {"pixel state", 4, 2 * 256, 8, 8, 32, {32, 32}},
-    {"finished parts", 4, 4, 1, 4},
-    {"passes", 4, 1, 8, 8},
-    {"converted Gaussians", 4, 16 + 10, 108, 108},  // at the SH degree with most in the pipeline
-    {"tile requests", 4, 1, 1, 1},
-    {"tile jobs", 4, 1, 12, 12},
-    {"sorted entries", 4, 256, 8, 8},
-    {"passes done", 4, 1, 1, 1}};
-
-// Of those that numbers in floats, or larger lines, make wider.
-const std::vector<Memory> kInFloats = {
-    {"ends of lists", 1, 15, 5, 5},
-    {"lines of lists", 1, 6, 64, 8, 4, {4, 4}},
-    {"tiles of lines", 1, 6, 3, 3},  // tile 4 bits, two of 3, a line of 2^14
-    {"records under test", 1, 4 + 15 + 16 + 2, 32, 32},
-    {"keys under test", 1, 4 + 15 + 16 + 2, 4 + 3, 7},  // beside it 22 bits of the opacity
-    {"lists on chip", 2, 2 * 512, 10, 10, 16, {16, 1}},
-    {"keys of subsets", 2, 2 * 512, 6, 6, 16, {16, 1}},
-    {"lines of subsets", 2, 8, 64, 8, 4, {4, 4}},
-    {"subsets in memory", 2, 12 * 8, 17, 17},
-    {"subsets on chip", 2, 12 * 8, 12, 12},
-    {"chunk", 2, 2 * 64, 6, 6, 16, {8, 16}},
-    {"records", 2, 48, 32, 32},
-    {"fetched entries", 2, 48 + 1, 8 + 3, 11},
-    {"pixel state", 2, 2 * 256, 16, 16, 32, {32, 32}},
-    {"sorted entries", 2, 256, 8 + 3, 11}};
-
-TEST_CASE("ledger: gscore's memories are as large and as wide as they are said to be") {
-  for (std::size_t b = 0; b < builds().size(); ++b) {
-    INFO(builds()[b].name);
-    const Frame frame = simulated("gscore", builds()[b].settings, "builtin:object?n=64");
-    for (const Memory& memory : b == 0 ? kAsPublished : kInFloats) {
-      INFO(memory.use);
-      const SramUses& uses = frame.result.machine.sram_uses;
-      const auto use = std::find_if(uses.begin(), uses.end(),
-                                    [&](const SramUse& u) { return u.name == memory.use; });
-      REQUIRE(use != uses.end());
-      CHECK(use->count == memory.count);
-      CHECK(use->bytes == memory.entries * memory.bytes);
-      CHECK(use->shape.width_bits == 8 * memory.width_bytes);
-      CHECK(use->shape.banks == memory.banks);
-      CHECK(use->shape.ports == SramPorts::kReadAndWrite);
-      CHECK(use->peak == memory.peak);
     }
   }
 }

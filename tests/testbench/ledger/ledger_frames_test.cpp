@@ -7,7 +7,6 @@
 #include <catch2/catch.hpp>
 #include <map>
 #include <random>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -149,37 +148,6 @@ TEST_CASE("ledger: of a real frame, no line can be left out unseen") {
   }
 }
 
-TEST_CASE("ledger: an access takes an entry, or a burst of a longer one") {
-  // Several entries side by side, or parts of one.
-  const std::set<std::string> others = {"finished sub-tiles",
-                                        "spans",
-                                        "sub-tiles in the loop",
-                                        "ordered voxels",
-                                        "entries that come back",
-                                        "renamed voxels",
-                                        "node cache tags",
-                                        "scale",
-                                        "record cache tags",
-                                        "cut cache tags",
-                                        "rotation",
-                                        "dc",
-                                        "sh"};
-  constexpr std::uint32_t kBurstBits = 8 * 32;
-  for (const char* preset : {"exact_vq", "paper"}) {
-    std::size_t told = 0;
-    for (const SramUse& use : simulated(preset, {}, kSparse).result.machine.sram_uses) {
-      const std::size_t last = use.arithmetic.rfind(" x ");
-      if (last == std::string::npos || others.count(use.name) != 0) continue;
-      INFO(preset << " " << use.name << ": " << use.arithmetic);
-      const auto bits = static_cast<std::uint32_t>(8 * std::stoul(use.arithmetic.substr(last + 3)));
-      CHECK((use.shape.width_bits == bits ||
-             (bits > kBurstBits && use.shape.width_bits == kBurstBits)));
-      ++told;
-    }
-    CHECK(told > 20);
-  }
-}
-
 // Values that a key may have; one of each is drawn.
 using Choices = std::map<std::string, std::vector<std::string>>;
 
@@ -256,74 +224,6 @@ TEST_CASE("ledger: no part and no port does more than a frame has time for") {
         INFO(line.what);
         CHECK(line.done <= line.per_cycle * cycles);
       }
-    }
-  }
-}
-
-TEST_CASE("ledger: registers of every pipeline, multiplexers where lanes are folded") {
-  for (const char* preset : {"exact", "exact_vq", "paper_no_vq", "gscore"}) {
-    for (const bool folded : {false, true}) {
-      INFO(preset << (folded ? ", folded" : ""));
-      const bool quantised = std::string(preset) == "exact_vq";
-      const bool exact = quantised || std::string(preset) == "exact";
-      const bool tiles = std::string(preset) == "gscore";
-      Settings settings = {exact ? "rendering.cluster_lanes=190" : "rendering.cluster_lanes=182"};
-      if (folded) settings = {"rendering.cluster_lanes=64", "hfu.cfu_lanes=2"};
-      if (tiles) settings = {folded ? "rendering.core_lanes=64" : "rendering.core_lanes=180"};
-      const MachineResult machine =
-          simulated(preset, settings, "builtin:object?n=64").result.machine;
-      std::map<std::string, double> stand;
-      for (const DatapathResult& d : machine.datapaths) {
-        INFO(d.datapath.name);
-        const BetweenLanes& between = d.datapath.between;
-        CHECK(between.registers > 0);
-        CHECK(between.written > 0);
-        const bool of_blend = d.datapath.name == (tiles ? "blend" : "subtile_blend");
-        if (of_blend) CHECK((between.multiplexers > 0) == folded);
-        if (d.datapath.name == "coarse") CHECK(between.multiplexers > between.registers);
-        stand[d.datapath.component + " register_bit"] +=
-            d.datapath.copies * between.registers + d.datapath.set_bits;
-        stand[d.datapath.component + " select_bit"] += d.datapath.copies * between.multiplexers;
-      }
-      if (tiles) {
-        // The Gaussian whose tiles are tested, of 108 B, from one of four CCUs, and the end of the
-        // list that was written last.
-        constexpr double kGaussian = 8 * 108;
-        stand["lists register_bit"] += kGaussian + 64;
-        stand["lists select_bit"] += 3 * kGaussian;
-        // In each core for each block of 16 px a counter of 7 cycles, of 9 where lanes are folded,
-        // and whether it is finished; which of 16 parts and blocks is next; 16 pixels of 24 bits.
-        stand["rendering register_bit"] += 4 * (16 * ((folded ? 4 : 3) + 1) + 16 + 5 + 16 * 24);
-        // A pixel of half floats from one of 32 memories.
-        stand["rendering select_bit"] += 4 * 31 * 64;
-      } else {
-        // The splat whose rows the dispatcher gives out; a row of pixels of 24 bits.
-        stand["rendering register_bit"] += 8 * 48 + (exact ? 96 : 64) * 24;
-        // Eight pixels, each from one of eight memories of a group: 16 in each of four clusters.
-        stand["rendering select_bit"] += 8 * 7 * (exact ? 128 : 64);
-      }
-      if (quantised) {
-        // Each of four HFUs takes a line of 16 B from one of 8 banks of each of four codebooks, and
-        // puts any of its words anywhere.
-        stand["codebooks select_bit"] += 4 * (31 + 3) * 128;
-      }
-      if (exact) {
-        // Of the queues, which have no lanes: in 9 and 8 levels a key of 128 and 96 bits, a node
-        // and its counts; multiplexers of seven keys, and of three nodes below the root, two where
-        // the deepest level has only one.
-        constexpr double kNodes = 274 + 272 + 270 + 268 + 266 + 264 + 262 + 260 + 256;
-        constexpr double kSmaller = 208 + 206 + 204 + 202 + 200 + 198 + 196 + 192;
-        stand["vsu register_bit"] += 9 * 128 + kNodes + 8 * 96 + kSmaller;
-        stand["vsu select_bit"] += 7 * (9 * 128 + 8 * 96) + 3 * (kNodes - 274 - 256) + 2 * 256 +
-                                   3 * (kSmaller - 208 - 192) + 2 * 192;
-      }
-      for (const Parts& part : machine.parts) {
-        const auto at = stand.find(part.component + " " + part.kind);
-        if (at == stand.end()) continue;
-        CHECK(part.count == at->second);
-        stand.erase(at);
-      }
-      for (const auto& [what, count] : stand) CHECK(count == 0);
     }
   }
 }

@@ -110,30 +110,6 @@ TEST_CASE("sram budget: the same for machines that are no preset") {
   check_sums("gscore", {"ccus=3", "cores=5", "tiles.subtiles_across=4", "framebuffer=rgb32f"});
 }
 
-TEST_CASE("sram budget: shipped machines fit, of one total") {
-  constexpr std::uint64_t kPaper = 355 * 1024, kCodebooks = 250 * 1024;
-  const std::pair<const char*, std::uint64_t> totals[] = {{"exact", kPaper},
-                                                          {"exact_fast", kPaper},
-                                                          {"exact_fp16", kPaper},
-                                                          {"exact_half", kPaper},
-                                                          {"exact_vq", kPaper + kCodebooks},
-                                                          {"exact_vq_packed", kPaper + kCodebooks},
-                                                          {"paper", kPaper},
-                                                          {"paper_no_vq", kPaper},
-                                                          {"paper_no_cgf", kPaper},
-                                                          {"paper_no_vq_cgf", kPaper},
-                                                          {"gscore", 8 * 34 * 1024}};
-  for (const auto& [preset, bytes] : totals) {
-    for (const char* pixels : {"framebuffer=rgb8", "framebuffer=rgb32f"}) {
-      INFO(preset << " " << pixels);
-      const MachineResult machine = sheets_of(preset, {pixels});
-      std::uint64_t total = 0;
-      for (const auto& available : machine.sram_available) total += available.second;
-      CHECK(total == bytes);
-    }
-  }
-}
-
 struct Message {
   static constexpr std::uint32_t kSramBytes = 20;
 };

@@ -1,8 +1,7 @@
-// The formulas with 100 digits, by hand.
+// Harmonics with 100 digits, by hand.
 #include <catch2/catch.hpp>
 
 #include "testbench/stability/exact_colour.h"
-#include "testbench/stability/exact_projection.h"
 
 using namespace sgs;
 
@@ -13,41 +12,6 @@ bool is_near(const Exact& value, const Exact& expected, const char* relative) {
 }
 
 }  // namespace
-
-// 100 x 50 px, focal length 100 px; (1, 0.5, 4): J = [25 0 -6.25; 0 25 -3.125], scales 0.1, 0.2,
-// 0.3, a quarter turn about z.
-TEST_CASE("exact projection by hand") {
-  Camera camera;
-  camera.width = 100;
-  camera.height = 50;
-  camera.focal_x = camera.focal_y = 100;
-  const Exact root = sqrt(Exact(2)) / 2;
-  const ExactGaussian g{
-      {0, 0, 0}, {Exact(1) / 10, Exact(2) / 10, Exact(3) / 10}, {root, 0, 0, root}};
-  const ExactSplat s = exact_project(exact_view(camera), g, {1, Exact(1) / 2, 4});
-  CHECK(is_near(s.x, Exact("74.5"), "1e-90"));
-  CHECK(is_near(s.y, Exact("37"), "1e-90"));
-  CHECK(is_near(s.cov_a, Exact("28.815625"), "1e-90"));   // 625*0.04 + 39.0625*0.09 + 0.3
-  CHECK(is_near(s.cov_b, Exact("1.7578125"), "1e-90"));   // 6.25*3.125*0.09
-  CHECK(is_near(s.cov_c, Exact("7.42890625"), "1e-90"));  // 625*0.01 + 9.765625*0.09 + 0.3
-  CHECK(is_near(s.determinant,
-                Exact("28.815625") * Exact("7.42890625") - Exact("1.7578125") * Exact("1.7578125"),
-                "1e-90"));
-  CHECK(is_near(s.conic_a * s.determinant, s.cov_c, "1e-90"));
-  CHECK(is_near(s.conic_b * s.determinant, -s.cov_b, "1e-90"));
-  // lambda^2 - (a + c) lambda + det = 0.
-  CHECK(is_near(s.lambda * s.lambda + s.determinant, (s.cov_a + s.cov_c) * s.lambda, "1e-80"));
-}
-
-TEST_CASE("exact camera: v = R^T (p - c), the columns of R are the camera's axes") {
-  Camera camera;
-  camera.width = camera.height = 10;
-  camera.focal_x = camera.focal_y = 10;
-  camera.position = {1, 2, 3};
-  camera.world_from_camera = glm::dmat3({0, 1, 0}, {0, 0, 1}, {1, 0, 0});
-  const ExactVector v = exact_to_camera(exact_view(camera), {11, 22, 33});
-  CHECK(v == ExactVector{20, 30, 10});
-}
 
 TEST_CASE("exact harmonics: each basis function of degrees 0 to 3 has a mean square of 1 / 4 pi") {
   // Over the 14 directions of a cube's faces and corners with these weights every polynomial of
