@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-#include "modules/dram/arriving_from.h"
-#include "modules/dram/payload_bytes.h"
+#include "modules/dram/byte_store.h"
 #include "tlm/memory_extension.h"
 
 namespace sgs {

@@ -14,13 +14,11 @@
 #include <numeric>
 
 #include "algorithm/files/input_error.h"
+#include "algorithm/render/blend_pass.h"
 #include "algorithm/render/group_state.h"
 #include "algorithm/render/reference_renderer.h"
-#include "algorithm/render/splat_bins.h"
-#include "algorithm/render/splat_sequence.h"
 #include "algorithm/splat/activate.h"
 #include "testbench/bench/bench_scene.h"
-#include "testbench/bench/stopwatch.h"
 #include "testbench/command_line/guard.h"
 
 namespace {

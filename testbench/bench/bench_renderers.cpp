@@ -33,7 +33,6 @@
 #include "algorithm/voxel/chunk_tree.h"
 #include "algorithm/voxel/voxel_grid.h"
 #include "testbench/bench/bench_scene.h"
-#include "testbench/bench/stopwatch.h"
 #include "testbench/command_line/guard.h"
 #include "testbench/oracle/double_oracle.h"
 

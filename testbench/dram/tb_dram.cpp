@@ -14,7 +14,6 @@
 #include "testbench/command_line/config_source.h"
 #include "testbench/command_line/program.h"
 #include "testbench/dram/bench_table.h"
-#include "testbench/dram/part_streams.h"
 #include "testbench/dram/self_check.h"
 #include "testbench/dram/stats_table.h"
 #include "tlm/no_banner.h"

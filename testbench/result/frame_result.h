@@ -138,4 +138,8 @@ struct FrameResult {
   double time_s() const { return static_cast<double>(cycles) / (clock_mhz * 1e6); }
 };
 
+std::string to_wire(const FrameResult& result);
+// Reads the bytes that to_wire() made in the same build.
+FrameResult from_wire(const std::string& bytes);
+
 }  // namespace sgs

@@ -1,6 +1,6 @@
 // Activations and spherical harmonics, and their derivatives.
 #include "algorithm/tune/gaussian_gradient.h"
-#include "testbench/stability/exact_colour.h"
+#include "testbench/stability/exact.h"
 #include "testbench/stability/study.h"
 
 namespace sgs {

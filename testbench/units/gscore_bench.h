@@ -11,7 +11,7 @@
 #include "modules/gscore/gscore_job.h"
 #include "modules/gscore/line_buffer.h"
 #include "testbench/units/case_runner.h"
-#include "testbench/units/uniform.h"
+#include "testbench/units/random_scene.h"
 #include "testbench/units/unit_bench.h"
 
 namespace sgs::tb {

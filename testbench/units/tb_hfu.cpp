@@ -2,7 +2,7 @@
 // Checked against the coarse bound and make_splat on what the bytes in memory decode to; times of
 // the coarse filter alone are written out. All others: tests/modules/streaminggs/clocked.
 #include "algorithm/splat/gaussian.h"
-#include "algorithm/storage/build_memory_image.h"
+#include "algorithm/storage/encoded_cloud.h"
 #include "testbench/units/hfu_run.h"
 #include "testbench/units/job_memory.h"
 

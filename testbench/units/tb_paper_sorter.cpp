@@ -7,7 +7,7 @@
 #include "modules/streaminggs/sorting/sorting_cost.h"
 #include "testbench/units/case_runner.h"
 #include "testbench/units/job_memory.h"
-#include "testbench/units/random_splats.h"
+#include "testbench/units/random_scene.h"
 #include "testbench/units/unit_bench.h"
 
 namespace sgs::tb {

@@ -8,7 +8,7 @@
 #include "modules/gscore/gscore_datapaths.h"
 #include "modules/gscore/rendering/render_core.h"
 #include "testbench/units/gscore_bench.h"
-#include "testbench/units/random_splats.h"
+#include "testbench/units/random_scene.h"
 
 namespace sgs::tb {
 namespace {

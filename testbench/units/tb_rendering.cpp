@@ -1,7 +1,7 @@
 // Rendering unit alone: sorted splats in, a frame buffer in memory out. Checked against GroupState;
 // times: tests/modules/streaminggs/clocked.
 #include "testbench/units/job_memory.h"
-#include "testbench/units/random_splats.h"
+#include "testbench/units/random_scene.h"
 #include "testbench/units/rendering_run.h"
 
 namespace sgs::tb {

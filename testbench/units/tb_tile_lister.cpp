@@ -8,7 +8,7 @@
 #include "modules/gscore/gscore_datapaths.h"
 #include "modules/gscore/lists/tile_lister.h"
 #include "testbench/units/gscore_bench.h"
-#include "testbench/units/uniform.h"
+#include "testbench/units/random_scene.h"
 
 namespace sgs::tb {
 namespace {

@@ -9,7 +9,7 @@
 #include "testbench/command_line/version.h"
 #include "testbench/streaminggs/report/provenance.h"
 #include "testbench/streaminggs/report/report.h"
-#include "testbench/streaminggs/run/seconds_since.h"
+#include "testbench/streaminggs/run/progress.h"
 
 namespace sgs {
 namespace {

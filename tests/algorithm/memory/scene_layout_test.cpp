@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "algorithm/memory/frame_buffer.h"
-#include "algorithm/voxel/chunk_node.h"
+#include "algorithm/voxel/chunk_tree.h"
 
 namespace sgs {
 namespace {

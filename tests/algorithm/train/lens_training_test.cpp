@@ -10,7 +10,7 @@
 #include "algorithm/dataset/dataset.h"
 #include "algorithm/image/image_io.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/train/evaluation.h"
+#include "algorithm/train/comparison.h"
 #include "algorithm/train/start_cloud.h"
 #include "algorithm/train/trainer.h"
 #include "tests/support/scratch_folder.h"

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "algorithm/files/input_error.h"
-#include "testbench/dram/request_generator.h"
+#include "testbench/dram/stream_bench.h"
 
 namespace sgs {
 namespace {

@@ -1,8 +1,7 @@
 // The formulas with 100 digits, by hand.
-#include <catch2/catch.hpp>
+#include "testbench/stability/exact.h"
 
-#include "testbench/stability/exact_colour.h"
-#include "testbench/stability/exact_projection.h"
+#include <catch2/catch.hpp>
 
 using namespace sgs;
 
