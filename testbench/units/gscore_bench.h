@@ -61,12 +61,6 @@ inline SceneLayout empty_layout(std::uint32_t gaussians) {
 // Bytes of a memory with room for any job of these benches.
 constexpr std::size_t kGscoreMemoryBytes = 24 << 20;
 
-inline BenchConfig still_gscore() {
-  BenchConfig config;
-  config.memory_bytes = kGscoreMemoryBytes;
-  return config;
-}
-
 // Entries as a lister would leave them: blocks from `first` on, chained by `next`.
 inline std::vector<std::byte> chained_blocks(const BlockFormat& format,
                                              const std::vector<TileEntry>& entries,

@@ -226,7 +226,7 @@ int sc_main(int argc, char* argv[]) {
       GscoreConfig config;
       config.cores = 1;
       config.lists.pool_bytes = 1 << 20;
-      run_plan(test, still_gscore(),
+      run_plan(test, still_bench(kGscoreMemoryBytes),
                make_plan(config, test.random, width, height, entries, opacity, whole_tiles),
                whole_tiles && opacity < 0.1F);
     });
