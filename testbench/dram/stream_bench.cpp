@@ -45,20 +45,6 @@ MemoryRequest RequestGenerator::next() {
   return request;
 }
 
-std::uint64_t stream_hash(const StreamSpec& spec, std::uint64_t count) {
-  RequestGenerator generator(spec);
-  std::uint64_t hash = 1469598103934665603u;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    const MemoryRequest request = generator.next();
-    const std::uint64_t word = request.address | (request.write ? 1u : 0u);
-    for (int byte = 0; byte < 8; ++byte) {
-      hash ^= (word >> (8 * byte)) & 0xff;
-      hash *= 0x100000001b3u;
-    }
-  }
-  return hash;
-}
-
 ClosedLoopDriver::ClosedLoopDriver(const sc_core::sc_module_name& name, const Config& config,
                                    std::function<MemoryRequest()> next)
     : sc_module(name),
@@ -140,9 +126,7 @@ StreamResult result_of(const DramStats& stats, double wall_s, std::uint64_t requ
                                         ? stats.read_latency_cycles
                                         : stats.write_latency_cycles;
   r.gb_per_s = stats.bandwidth_gb_per_s();
-  r.busy_gb_per_s = stats.busy_bandwidth_gb_per_s();
   r.peak_gb_per_s = stats.peak_gb_per_s;
-  r.bus_gb_per_s = static_cast<double>(stats.bus_bytes()) / ns;
   r.row_hit_rate = stats.row_hit_rate();
   r.latency_mean_ns = latency.mean() * stats.clock_period_ns;
   r.latency_p50_ns = static_cast<double>(latency.percentile(0.5)) * stats.clock_period_ns;

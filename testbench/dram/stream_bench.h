@@ -10,6 +10,7 @@
 #include <tlm>
 #include <vector>
 
+#include "algorithm/files/output_file.h"
 #include "modules/dram/dram_config.h"
 #include "modules/dram/dram_stats.h"
 #include "modules/dram/request_trace.h"
@@ -45,11 +46,6 @@ class RequestGenerator {
 
 // xorshift64* by itself: steps `state` and returns the draw.
 std::uint64_t xorshift64star(std::uint64_t& state);
-
-// FNV-1a of 64 bits over the eight little-endian bytes of (address | write) of `count` requests.
-// The offset basis is 1469598103934665603, FNV's without its last digit: the figures that others
-// can compare with were made with it.
-std::uint64_t stream_hash(const StreamSpec& spec, std::uint64_t count);
 
 // Drives a memory as hard as a window of outstanding requests allows.
 
@@ -108,10 +104,8 @@ struct StreamBench {
 
 // Plain numbers, so that they can cross a pipe.
 struct StreamResult {
-  double gb_per_s = 0;       // bytes asked for over all the time
-  double busy_gb_per_s = 0;  // over the time with a request in the controller
+  double gb_per_s = 0;  // bytes asked for over all the time
   double peak_gb_per_s = 0;
-  double bus_gb_per_s = 0;  // whole bursts over all the time
   double row_hit_rate = 0;
   double latency_mean_ns = 0;  // reads; writes when there are no reads
   double latency_p50_ns = 0;

@@ -28,7 +28,6 @@ struct ActivityResult {
   Remedy remedy;                  // to work faster
 
   std::uint64_t waited_for(WaitFor what) const;
-  std::uint64_t waited() const;
 };
 
 struct CounterResult {
