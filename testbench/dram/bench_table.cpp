@@ -153,24 +153,6 @@ void print_latency_curve(const DramConfig& config, std::uint64_t requests) {
   }
 }
 
-void print_speed(std::uint64_t requests) {
-  fmt::print("\nSpeed of the model on this host, one channel, through the TLM socket\n");
-  fmt::print("{:<12} {:>12} {:>22}\n", "stream", "M requests/s", "M 32-byte requests/s");
-  for (const std::uint32_t bytes : {32u, 64u, 256u, 0u}) {
-    StreamBench bench;
-    bench.dram.channels = 1;
-    bench.dram.mapping = "row:rank:bank:column:channel";
-    bench.stream.pattern = bytes == 0 ? Pattern::kRandom : Pattern::kSequential;
-    bench.stream.request_bytes = bytes == 0 ? 32 : bytes;
-    bench.requests = requests;
-    const StreamResult r = run_stream_in_child(bench);
-    const double rate = static_cast<double>(r.requests) / r.wall_s / 1e6;
-    fmt::print("{:<12} {:>12.2f} {:>22.2f}\n",
-               fmt::format("{} {}", bytes == 0 ? "rnd" : "seq", bench.stream.request_bytes), rate,
-               rate * bench.stream.request_bytes / 32);
-  }
-}
-
 const std::array<const char*, kPartStreams> kPartStreamNames = {
     "seq 64", "seq 32", "rnd 64", "rnd 32", "seq 64, 30 % W", "rnd 64, 30 % W"};
 

@@ -44,9 +44,6 @@ void print_table(const std::string& title, const std::vector<MeasuredRow>& rows)
 // Random 32-byte reads offered at growing rates: bandwidth and latency at each.
 void print_latency_curve(const DramConfig& config, std::uint64_t requests);
 
-// The host's speed: sequential reads as transactions of 32, 64 and 256 bytes, random of 32.
-void print_speed(std::uint64_t requests);
-
 // The bench's streams through every shipped memory, beside closed forms.
 
 // In sequence and at random, requests of 64 and of 32 bytes, and of 64 with 30 % writes.
