@@ -26,6 +26,13 @@ fi
 failed=0
 for bench in build/release/bin/bench_*; do
   echo
-  "$bench" "${scenes[@]}" || failed=1
+  if [ "${bench##*/}" != bench_renderers ]; then
+    "$bench" "${scenes[@]}" || failed=1
+    continue
+  fi
+  for scene in "${scenes[@]}"; do
+    cameras=${scene%.*}.json
+    "$bench" "$scene" $([ -f "$cameras" ] && echo --cameras "$cameras") || failed=1
+  done
 done
 exit $failed

@@ -20,21 +20,6 @@ memory, that size stands, and decides. Tables show what was simulated: values as
 resolved configuration has them, the size of the pixel group always among them: `group=SHAPE` stands
 for both of its sides.
 
-  MEASURE      sum(PATH), mean(PATH), min(PATH), max(PATH), p99(PATH) over all views of all scenes,
-               of a number of a view's report.json by its path, such as dram.row_conflicts; or
-               geomean(PATH), geometric over the scenes, of the means over their views. PATH alone
-               is the largest of what an accelerator has (config, sram, area_mm2), else the sum,
-               shown as sum(PATH). Names of paths: fps, cycles, seconds, dram_bytes, joules, watts,
-               mm2, mm2_high (the upper end of its band), mm2_with_phy, psnr_db; sram_bytes;
-               filter_lanes, the multiply-accumulate lanes of coarse and fine filters; joules_mean is
-               mean(joules)
-  --objectives MEASURE,..., each to be small, or large with max: before it. worst(PATH) is the
-               largest of what should be small, the smallest of what should be large
-  --require    'MEASURE >= BOUND' or 'MEASURE <= BOUND'; each(PATH) is the mean of each scene. BOUND
-               is NUMBER, or NUMBER x CONFIG, what a preset or file comes to on the same views, with
-               + NUMBER or - NUMBER behind it
-  --show       MEASURE,..., further columns, by which nothing is judged
-
 Area is asked before a view is drawn: a configuration that is larger than what is required is drawn
 on none; --search steps draws such ones on its way down from a preset that holds all else. Views
 that took long are drawn first: a configuration that has lost on one of them is drawn on no other.
@@ -67,7 +52,7 @@ import pathlib
 import sys
 from collections.abc import Iterable, Sequence
 
-from exploring import options
+from exploring import measures, options
 from exploring.axes import (
     ORDERS,
     Assignments,
@@ -148,9 +133,9 @@ def check_keys(
 def objectives_of(text: str) -> tuple[Objective, ...]:
     """Raises ValueError."""
     found = tuple(map(objective, text.split(",")))
-    measures = [(o.measure.aggregate, o.measure.path) for o in found]
-    for o, measure in zip(found, measures):
-        if measures.count(measure) > 1:
+    asked = [(o.measure.aggregate, o.measure.path) for o in found]
+    for o, measure in zip(found, asked):
+        if asked.count(measure) > 1:
             raise ValueError(f"--objectives: {o.name}: there are two")
     return found
 
@@ -314,7 +299,7 @@ def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Seque
 
 
 def main() -> int:
-    arguments = options.parsed(options.parser(__doc__), sys.argv[1:])
+    arguments = options.parsed(options.parser(f"{__doc__}\n{measures.__doc__}"), sys.argv[1:])
     arguments.config = arguments.config or options.default_config(arguments.machine)
     return run_arguments.main_of_tables(explore, arguments)
 

@@ -195,31 +195,15 @@ def shipped_memspecs() -> str:
     rows = []
     for path in sorted((REPOSITORY / "modules/dram/memspecs").glob("*.json")):
         memspec = json.loads(path.read_text())
-        of = {
-            "beats_per_clock": 2,
-            "pseudo_channels": 1,
-            "bank_groups": 1,
-            "banks_per_refresh": 1,
-            **memspec["organisation"],
-        }
+        of = {"beats_per_clock": 2, "pseudo_channels": 1, "bank_groups": 1, "banks_per_refresh": 1}
+        of |= memspec["organisation"]
         bits_per_ns = of["width_bits"] * of["beats_per_clock"] / memspec["clock_period_ns"]
-        numbers = (
-            of["pseudo_channels"],
-            of["width_bits"],
-            of["burst_length"] * of["width_bits"] // 8,
-            of["banks"],
-            of["bank_groups"],
-            of["banks_per_refresh"],
-        )
-        rows.append(
-            [
-                f"`{path.stem}`",
-                memspec["description"],
-                f"{of['pseudo_channels'] * bits_per_ns / 8:.2f}",
-                *map(str, numbers),
-                f"`{memspec['default_currents']}`",
-            ]
-        )
+        burst_bytes = of["burst_length"] * of["width_bits"] // 8
+        numbers = (of["pseudo_channels"], of["width_bits"], burst_bytes)
+        numbers += (of["banks"], of["bank_groups"], of["banks_per_refresh"])
+        gb_s = f"{of['pseudo_channels'] * bits_per_ns / 8:.2f}"
+        named = [f"`{path.stem}`", memspec["description"], gb_s]
+        rows.append([*named, *map(str, numbers), f"`{memspec['default_currents']}`"])
     return table(
         [
             *("memspec", "device", "GB/s a channel", "data buses", "bits each", "burst, bytes"),

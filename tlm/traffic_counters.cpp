@@ -9,27 +9,6 @@ TrafficCount TrafficCounters::of(std::uint8_t requester, std::uint8_t region,
   return rows_[requester][region][static_cast<std::size_t>(direction)];
 }
 
-TrafficCount TrafficCounters::of_requester(std::uint8_t requester, Direction direction) const {
-  TrafficCount sum;
-  for (const Row& row : rows())
-    if (row.requester == requester && row.direction == direction) sum += row.count;
-  return sum;
-}
-
-TrafficCount TrafficCounters::of_region(std::uint8_t region, Direction direction) const {
-  TrafficCount sum;
-  for (const Row& row : rows())
-    if (row.region == region && row.direction == direction) sum += row.count;
-  return sum;
-}
-
-TrafficCount TrafficCounters::of_direction(Direction direction) const {
-  TrafficCount sum;
-  for (const Row& row : rows())
-    if (row.direction == direction) sum += row.count;
-  return sum;
-}
-
 TrafficCount TrafficCounters::total() const {
   TrafficCount sum;
   for (const Row& row : rows()) sum += row.count;

@@ -30,9 +30,6 @@ class TrafficCounters {
   }
 
   TrafficCount of(std::uint8_t requester, std::uint8_t region, Direction direction) const;
-  TrafficCount of_requester(std::uint8_t requester, Direction direction) const;
-  TrafficCount of_region(std::uint8_t region, Direction direction) const;
-  TrafficCount of_direction(Direction direction) const;
   TrafficCount total() const;
 
   // One row for each (requester, region, direction) that saw a transaction, in that order.

@@ -11,7 +11,6 @@
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_file.h"
-#include "algorithm/files/nearest_name.h"
 
 namespace sgs {
 namespace {

@@ -4,19 +4,23 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <sys/types.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <climits>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <map>
 #include <utility>
 
 #include "algorithm/files/input_error.h"
-#include "algorithm/files/part_files.h"
 
 namespace sgs {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -58,6 +62,28 @@ void check_place(const std::string& path) {
     if (::access(path.c_str(), W_OK) != 0) refuse(path, std::strerror(errno), kExpected);
   } else if (errno != ENOENT) {
     refuse(path, std::strerror(errno), kExpected);
+  }
+}
+
+std::array<std::atomic<const char*>, 256> parts;
+pid_t owner = 0;
+
+// Nothing but what a handler may call.
+extern "C" void remove_parts(int signal) {
+  if (::getpid() == owner) {
+    for (const auto& part : parts) {
+      if (const char* path = part.load()) ::unlink(path);
+    }
+  }
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+// The first place that holds `from` holds `to`.
+void exchange(const char* from, const char* to) {
+  for (auto& part : parts) {
+    const char* expected = from;
+    if (part.compare_exchange_strong(expected, to)) return;
   }
 }
 
@@ -164,6 +190,16 @@ void OutputPlan::check() const {
       throw InputError(fmt::format(
           "{}: lies below {}, which is an output itself, expected a folder", output, file->second));
     }
+  }
+}
+
+void remember_part(const char* path) { exchange(nullptr, path); }
+void forget_part(const char* path) { exchange(path, nullptr); }
+
+void remove_parts_on_signals() {
+  owner = ::getpid();
+  for (const int signal : {SIGINT, SIGTERM}) {
+    if (std::signal(signal, remove_parts) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
 }
 

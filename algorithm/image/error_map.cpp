@@ -8,7 +8,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "algorithm/image/drawing.h"
+#include "algorithm/image/image.h"
 #include "algorithm/image/quality.h"
 
 namespace sgs {

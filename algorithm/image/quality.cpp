@@ -9,6 +9,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -16,12 +19,50 @@
 #include "algorithm/files/input_error.h"
 
 namespace sgs {
+
 namespace {
 
 double channel_error(float a, float b) {
   if (a == b || (std::isnan(a) && std::isnan(b))) return 0.0;
   const double error = std::abs(static_cast<double>(a) - static_cast<double>(b));
   return std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
+}
+
+constexpr int kBandRows = 32;  // ten more are filtered twice; larger bands leave cores idle
+
+// Window sums at one pixel of one channel: a, b, a^2, b^2, a b.
+using Moments = std::array<double, 5>;
+
+Moments moments_of(float a_value, float b_value) {
+  const double a = clamp_to_unit(a_value), b = clamp_to_unit(b_value);
+  return {a, b, a * a, b * b, a * b};
+}
+
+double ssim_of(const Moments& m) {
+  const double mean_product = m[0] * m[1];
+  const double mean_squares = m[0] * m[0] + m[1] * m[1];
+  const double variances = m[2] + m[3] - mean_squares;
+  const double covariance = m[4] - mean_product;
+  return (2.0 * mean_product + kSsimC1) * (2.0 * covariance + kSsimC2) /
+         ((mean_squares + kSsimC1) * (variances + kSsimC2));
+}
+
+// The filter across one row: out[3 x + channel].
+void filter_row(const Image& a, const Image& b, int y, const std::array<double, kSsimTaps>& window,
+                std::vector<Moments>& raw, Moments* out) {
+  raw.assign(3 * (static_cast<std::size_t>(a.width) + 2 * kSsimRadiusPx), Moments{});
+  for (int x = 0; x < a.width; ++x) {
+    for (int channel = 0; channel < 3; ++channel) {
+      raw[3 * (x + kSsimRadiusPx) + channel] = moments_of(a.at(x, y)[channel], b.at(x, y)[channel]);
+    }
+  }
+  for (int i = 0; i < 3 * a.width; ++i) {
+    Moments sum{};
+    for (int tap = 0; tap < kSsimTaps; ++tap) {
+      for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += window[tap] * raw[i + 3 * tap][k];
+    }
+    out[i] = sum;
+  }
 }
 
 }  // namespace
@@ -80,47 +121,6 @@ double fraction_within(const Image& a, const Image& b, double tolerance) {
   return static_cast<double>(within) / static_cast<double>(a.pixels.size());
 }
 
-namespace {
-
-constexpr int kBandRows = 32;  // ten more are filtered twice; larger bands leave cores idle
-
-// Window sums at one pixel of one channel: a, b, a^2, b^2, a b.
-using Moments = std::array<double, 5>;
-
-Moments moments_of(float a_value, float b_value) {
-  const double a = clamp_to_unit(a_value), b = clamp_to_unit(b_value);
-  return {a, b, a * a, b * b, a * b};
-}
-
-double ssim_of(const Moments& m) {
-  const double mean_product = m[0] * m[1];
-  const double mean_squares = m[0] * m[0] + m[1] * m[1];
-  const double variances = m[2] + m[3] - mean_squares;
-  const double covariance = m[4] - mean_product;
-  return (2.0 * mean_product + kSsimC1) * (2.0 * covariance + kSsimC2) /
-         ((mean_squares + kSsimC1) * (variances + kSsimC2));
-}
-
-// The filter across one row: out[3 x + channel].
-void filter_row(const Image& a, const Image& b, int y, const std::array<double, kSsimTaps>& window,
-                std::vector<Moments>& raw, Moments* out) {
-  raw.assign(3 * (static_cast<std::size_t>(a.width) + 2 * kSsimRadiusPx), Moments{});
-  for (int x = 0; x < a.width; ++x) {
-    for (int channel = 0; channel < 3; ++channel) {
-      raw[3 * (x + kSsimRadiusPx) + channel] = moments_of(a.at(x, y)[channel], b.at(x, y)[channel]);
-    }
-  }
-  for (int i = 0; i < 3 * a.width; ++i) {
-    Moments sum{};
-    for (int tap = 0; tap < kSsimTaps; ++tap) {
-      for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += window[tap] * raw[i + 3 * tap][k];
-    }
-    out[i] = sum;
-  }
-}
-
-}  // namespace
-
 double ssim(const Image& a, const Image& b) {
   check_same_size(a, b);
   const std::array<double, kSsimTaps> window = ssim_window();
@@ -152,6 +152,30 @@ double ssim(const Image& a, const Image& b) {
                       static_cast<double>(row_size * row_sums.size());
   // Whatever the sign of a picture's NaN, it is printed as one.
   return std::isnan(mean) ? std::numeric_limits<double>::quiet_NaN() : mean;
+}
+
+std::vector<ErrorPart> error_parts(const std::vector<const Image*>& chain) {
+  const Image& first = *chain.front();
+  for (const Image* image : chain) check_same_size(first, *image);
+  std::vector<ErrorPart> parts(chain.size() - 1);
+  double whole = 0;
+  for (std::size_t pixel = 0; pixel < first.pixels.size(); ++pixel) {
+    const auto shown = [&](const Image& image) {
+      return glm::dvec3(clamp_to_unit(image.pixels[pixel]));
+    };
+    const glm::dvec3 error = shown(*chain.back()) - shown(first);
+    whole += glm::dot(error, error);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const glm::dvec3 step = shown(*chain[i + 1]) - shown(*chain[i]);
+      parts[i].share += glm::dot(step, error);
+      parts[i].alone += glm::dot(step, step);
+    }
+  }
+  for (ErrorPart& part : parts) {
+    part.share /= whole;
+    part.alone /= whole;
+  }
+  return parts;
 }
 
 }  // namespace sgs

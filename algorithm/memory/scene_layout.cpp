@@ -1,11 +1,16 @@
 // Placing of a scene's regions.
 #include "algorithm/memory/scene_layout.h"
 
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
 #include "algorithm/memory/records.h"
-#include "algorithm/voxel/chunk_node.h"
-#include "algorithm/voxel/voxel_cuts.h"
+#include "algorithm/voxel/chunk_tree.h"
+#include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs {
+
 namespace {
 
 void place_records(const SecondHalfFormat& format, const RecordSplit& split,
@@ -18,6 +23,27 @@ void place_records(const SecondHalfFormat& format, const RecordSplit& split,
 }
 
 }  // namespace
+
+RegionSpan Regions::add(const std::string& name, std::uint64_t bytes) {
+  if (std::any_of(begin(), end(), [&](const Region& region) { return region.name == name; })) {
+    throw std::invalid_argument("two regions of the memory are called " + name);
+  }
+  if (size() > std::numeric_limits<RegionId>::max()) {
+    throw std::length_error("no number is left for the memory's region " + name);
+  }
+  const auto id = static_cast<RegionId>(size());
+  regions_.push_back({name, next_base(), bytes});
+  return {id, regions_.back().base, bytes};
+}
+
+RecordArray Regions::add_records(const std::string& name, std::uint32_t record_bytes,
+                                 std::uint64_t count) {
+  return add(name, record_bytes * count).records(0, record_bytes, count);
+}
+
+std::uint64_t Regions::next_base() const {
+  return (total_bytes() + kRegionAlignment - 1) / kRegionAlignment * kRegionAlignment;
+}
 
 RecordSplit split_of(StorageOrder order, const SecondHalfFormat& format) {
   const RecordSplit bursts = burst_split(format);

@@ -10,6 +10,7 @@
 #include "algorithm/scene/gaussian_cloud.h"
 
 namespace sgs {
+
 namespace {
 
 constexpr float kOpacityLevels = 255;

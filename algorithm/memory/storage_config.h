@@ -3,7 +3,6 @@
 
 #include <cstdint>
 
-#include "algorithm/memory/codebook.h"
 #include "algorithm/memory/scene_layout.h"
 #include "algorithm/memory/second_half.h"
 

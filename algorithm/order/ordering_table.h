@@ -68,12 +68,6 @@ class ReadyVoxels {
  public:
   static constexpr std::uint32_t kWordBits = 32;
 
-  // Levels of words over so many voxels, the bits themselves included.
-  static std::uint32_t levels_for(std::uint64_t voxels) {
-    std::uint32_t levels = 1;
-    for (; voxels > kWordBits; voxels = words_for(voxels)) ++levels;
-    return levels;
-  }
   // Words of all levels.
   static std::uint64_t all_words_for(std::uint64_t voxels) {
     std::uint64_t sum = words_for(voxels);

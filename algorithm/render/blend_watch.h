@@ -61,7 +61,7 @@ class Flags {
 };
 
 // The warps of a GPU that blends a tile with a thread for each pixel: 16 x 2 px each, all in step.
-constexpr int kWarpsOfTile = 8, kWarpThreads = 32;
+constexpr int kWarpsOfTile = 8;
 
 class WarpWatch {
  public:

@@ -15,7 +15,7 @@
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/voxel/cell_samples.h"
-#include "algorithm/voxel/voxel_cuts.h"
+#include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs {
 namespace {

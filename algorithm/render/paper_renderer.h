@@ -24,7 +24,7 @@ struct PaperOrderConfig {
   // Ordering table of one group: where it is full the group is ordered in passes.
   std::uint64_t table_bytes = OrderingTable::kUnlimited;
   std::uint32_t line_destinations = 0;  // edges in lines of an adjacency table, as OrderingTable's
-  // Voxels with more Gaussians are cut (voxel_cuts.h), each piece a visit of its own; 0: never.
+  // Voxels with more Gaussians are cut (voxel_grid.h), each piece a visit of its own; 0: never.
   std::uint32_t visit_gaussians = 0;
   // Parts of a group, each filtered and blended by itself (group_shape.h): a square number, and
   // the group's sides multiples of 4 times its root. In

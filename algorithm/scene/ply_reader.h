@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "algorithm/scene/scene_contents.h"
+#include "algorithm/scene/gaussian_cloud.h"
 
 namespace sgs {
 

@@ -9,7 +9,6 @@
 
 #include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/scene/ply_header.h"
-#include "algorithm/scene/scene_contents.h"
 
 namespace sgs {
 

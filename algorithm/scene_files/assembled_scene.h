@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "algorithm/scene/scene_contents.h"
+#include "algorithm/scene/gaussian_cloud.h"
 
 namespace sgs {
 

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/scene/ply_vertex.h"
-#include "algorithm/scene/scene_contents.h"
 
 namespace sgs {
 

@@ -7,7 +7,6 @@
 
 #include "algorithm/scene/camera.h"
 #include "algorithm/scene/gaussian_cloud.h"
-#include "algorithm/scene/scene_contents.h"
 
 namespace sgs {
 

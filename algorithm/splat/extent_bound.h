@@ -115,7 +115,6 @@ struct GroupReach {
   std::uint8_t x0 = 0, y0 = 0, x1 = 255, y1 = 255;
 };
 static_assert(sizeof(GroupReach) == 4);
-constexpr int kMostReachPx = 256 * 4;
 
 // 1 / sqrt(x), 2^-9 to 2^-6.8 of itself too large: what a table with an entry for each parity of
 // the exponent and seven bits of the mantissa gives. x: positive and finite.

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "algorithm/files/input_error.h"
-#include "algorithm/storage/build_memory_image.h"
+#include "algorithm/storage/encoded_cloud.h"
 #include "algorithm/storage/storage_scheme.h"
 
 namespace sgs {

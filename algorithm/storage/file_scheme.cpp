@@ -1,6 +1,6 @@
 // Stored by file: for machines that read all of a scene and find what they need by themselves. In
 // the order that the scene came in, or neighbours in space side by side.
-#include "algorithm/storage/build_memory_image.h"
+#include "algorithm/storage/encoded_cloud.h"
 #include "algorithm/storage/storage_scheme.h"
 #include "algorithm/voxel/chunk_tree.h"
 

@@ -18,6 +18,24 @@
 
 namespace sgs {
 
+// Bands of spherical harmonics that a scene stores: all of them, or those that its colours need
+// (storage.sh_tolerance).
+struct ShBands {
+  int degree = 0;         // degree that is stored
+  double most_error = 0;  // most that the bands beyond it add to a channel of any colour
+};
+
+// The lowest degree whose colours, of every Gaussian that is stored and from every direction, are
+// within config.sh_tolerance of the whole ones; the cloud's own where that is 0. By the addition
+// theorem the squares of a band's basis functions sum to (2 l + 1) / (4 pi) in any direction, so
+// that band l adds at most sqrt((2 l + 1) / (4 pi)) times the length of its coefficients. A pixel
+// is a mean of colours and background, and no farther off than the worst of them; in exact
+// arithmetic: beside this float rounds.
+ShBands bands_to_store(const ActivatedCloud& cloud, const StorageConfig& config);
+
+// The cloud without the bands beyond `degree`, at most its own.
+ActivatedCloud with_bands(const ActivatedCloud& cloud, int degree);
+
 // All Gaussians are read, in whatever sequence; no table finds them.
 struct NoTable {};
 
@@ -62,7 +80,7 @@ QuantisedCloud quantise_scene(const ActivatedCloud& cloud, const VqConfig& confi
                               const std::vector<Camera>& weighing, const VqProgress& progress = {});
 
 // Stores a scene that was quantised elsewhere. quantised: of this cloud, with the bands that are
-// stored (sh_bands.h), whose centres, largest scales and order are stored as they are; config's
+// stored (bands_to_store), whose centres, largest scales and order are stored as they are; config's
 // encoding: vq or vq_packed.
 StoredScene store_quantised(ActivatedCloud cloud, const QuantisedCloud& quantised,
                             const StorageConfig& config);

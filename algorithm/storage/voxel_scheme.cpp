@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "algorithm/files/input_error.h"
-#include "algorithm/storage/build_memory_image.h"
 #include "algorithm/storage/decoded_image.h"
+#include "algorithm/storage/encoded_cloud.h"
 #include "algorithm/storage/storage_scheme.h"
-#include "algorithm/voxel/voxel_cuts.h"
+#include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "algorithm/memory/codebook.h"
+#include "algorithm/memory/second_half.h"
 #include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/tune/adam.h"
 #include "algorithm/tune/cloud_gradient.h"

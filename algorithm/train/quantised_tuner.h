@@ -13,7 +13,6 @@
 #include "algorithm/train/codebook_entries.h"
 #include "algorithm/train/fitting.h"
 #include "algorithm/train/photographs.h"
-#include "algorithm/train/tuning_config.h"
 #include "algorithm/tune/adam.h"
 #include "algorithm/tune/cloud_gradient.h"
 #include "algorithm/vq/quantise.h"

@@ -8,7 +8,6 @@
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/train/fitting.h"
 #include "algorithm/train/photographs.h"
-#include "algorithm/train/tuning_config.h"
 #include "algorithm/tune/adam.h"
 #include "algorithm/tune/cloud_gradient.h"
 

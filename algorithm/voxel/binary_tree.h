@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "algorithm/splat/gaussian.h"
-#include "algorithm/voxel/chunk_node.h"
+#include "algorithm/voxel/chunk_tree.h"
 
 namespace sgs {
 

@@ -31,7 +31,7 @@
 #include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/footprint.h"
 #include "algorithm/splat/view.h"
-#include "algorithm/voxel/chunk_node.h"
+#include "algorithm/voxel/chunk_tree.h"
 
 namespace sgs {
 

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "algorithm/memory/codebook.h"
+#include "algorithm/memory/second_half.h"
 #include "algorithm/splat/gaussian.h"
 
 namespace sgs {

@@ -6,9 +6,9 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "algorithm/memory/codebook.h"
+#include "algorithm/memory/second_half.h"
 #include "algorithm/splat/gaussian.h"
-#include "algorithm/vq/point_set.h"
+#include "algorithm/vq/kmeans.h"
 
 namespace sgs {
 

@@ -11,7 +11,6 @@
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_json.h"
-#include "algorithm/files/nearest_name.h"
 #include "modules/config/unknown_key.h"
 
 namespace sgs {

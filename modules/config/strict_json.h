@@ -73,7 +73,6 @@ class ConfigWriter : public ConfigVisitor {
 };
 std::unique_ptr<ConfigWriter> make_json_writer();
 std::unique_ptr<ConfigWriter> make_commented_writer();
-std::unique_ptr<ConfigWriter> make_listing_writer();
 
 // A configuration as indented JSON: what --print-config prints, readable again.
 template <class Struct>
@@ -87,14 +86,6 @@ std::string config_to_json(Struct config) {
 template <class Struct>
 std::string config_to_commented_json(Struct config) {
   const std::unique_ptr<ConfigWriter> writer = make_commented_writer();
-  visit(static_cast<ConfigVisitor&>(*writer), config);
-  return writer->text();
-}
-
-// One line a key: path, value, what is allowed, what it means.
-template <class Struct>
-std::string config_listing(Struct config) {
-  const std::unique_ptr<ConfigWriter> writer = make_listing_writer();
   visit(static_cast<ConfigVisitor&>(*writer), config);
   return writer->text();
 }

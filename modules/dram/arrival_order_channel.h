@@ -34,7 +34,6 @@ class ArrivalOrderChannel {
   void finish(std::uint64_t cycle);
 
   const RowCounts& rows() const { return rows_; }
-  std::uint64_t last_column() const { return last_column_; }
 
  private:
   void maintain(std::uint64_t cycle);

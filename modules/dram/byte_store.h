@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <tlm>
 #include <vector>
 
 namespace sgs {
@@ -33,6 +34,23 @@ class ByteStore {
 
   std::uint64_t capacity_bytes_;
   std::vector<std::unique_ptr<std::uint8_t[], Free>> blocks_;
+};
+
+// Access of a generic payload to a store of bytes, and the response it deserves.
+
+// Moves the payload's bytes, byte enables respected, and sets its response: OK, or the TLM error
+// for a range outside the store, a streaming width below the length, an empty byte-enable array, or
+// a command that is neither read nor write; on an error no byte moves. True when OK.
+bool move_bytes(tlm::tlm_generic_payload& payload, ByteStore& store);
+
+// A note on a payload that waits out its annotated delay: which initiator it came from.
+struct ArrivingFrom : tlm::tlm_extension<ArrivingFrom> {
+  int initiator = 0;
+
+  tlm_extension_base* clone() const override { return new ArrivingFrom(*this); }
+  void copy_from(const tlm_extension_base& other) override {
+    initiator = static_cast<const ArrivingFrom&>(other).initiator;
+  }
 };
 
 }  // namespace sgs

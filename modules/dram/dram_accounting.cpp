@@ -31,14 +31,6 @@ void DramController::Commands::remove(CommandSink& sink) {
   others_.erase(std::remove(others_.begin(), others_.end(), &sink), others_.end());
 }
 
-std::uint64_t DramController::row_hits() const {
-  std::uint64_t hits = 0;
-  for (const Channel& channel : channels_)
-    hits += channel.queued.rows().of(RowOutcome::kHit) +
-            channel.arrival_order.rows().of(RowOutcome::kHit);
-  return hits;
-}
-
 std::uint64_t DramController::accounted_until() const {
   // Annotated delays may reach beyond the kernel's time; commands then lie in the future.
   return std::max(now(), transport_ == Transport::kBlocking ? busy_until_ : 0);

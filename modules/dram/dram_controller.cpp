@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-#include "modules/dram/arriving_from.h"
-#include "modules/dram/payload_bytes.h"
+#include "modules/dram/byte_store.h"
 #include "tlm/memory_extension.h"
 
 namespace sgs {
@@ -89,9 +88,6 @@ DramController::Transaction& DramController::new_transaction(int initiator,
   t.next = t.begin & ~std::uint64_t{mapping_.burst_bytes() - 1};
   t.end = t.begin + payload.get_data_length();
   t.arrival = cycle_of(arrival);
-  if (request_trace_ != nullptr)
-    request_trace_->add({payload.get_address(), payload.is_write(),
-                         arrival / sc_core::sc_time(1, sc_core::SC_NS), payload.get_data_length()});
   commands_.counts.traffic.add(memory ? memory->requester : std::uint8_t{0}, t.region, t.direction,
                                payload.get_data_length());
   return t;

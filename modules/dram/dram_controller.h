@@ -23,7 +23,6 @@
 #include "modules/dram/dram_stats.h"
 #include "modules/dram/memspec.h"
 #include "modules/dram/queued_channel.h"
-#include "modules/dram/request_trace.h"
 #include "modules/dram/ring_queue.h"
 #include "tlm/traffic_counters.h"
 
@@ -52,14 +51,8 @@ class DramController : public sc_core::sc_module, public CommandSource {
   void remove_command_sink(CommandSink& sink) override { commands_.remove(sink); }
   void catch_up() override;
 
-  // Records every request as it arrives, from now on.
-  void record_requests(RequestTraceWriter& writer) { request_trace_ = &writer; }
-
   // No request waits or is under way, posted writes included.
   bool idle() const;
-
-  // Bursts that found their row open, as far as decisions have been worked out; for waveforms.
-  std::uint64_t row_hits() const;
 
   // Counts and energy up to now (of a run that is over: up to the last datum); idle time is
   // caught up with first.
@@ -152,7 +145,6 @@ class DramController : public sc_core::sc_module, public CommandSource {
   const sc_core::sc_time clock_period_;
   ByteStore store_;
   Commands commands_;
-  RequestTraceWriter* request_trace_ = nullptr;
   std::deque<Channel> channels_;  // events do not move
   std::vector<Initiator> initiators_;
   std::size_t next_retry_ = 0;  // initiator that is offered room first

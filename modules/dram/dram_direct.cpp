@@ -1,8 +1,8 @@
 // The memory's calls without phases: blocking transport, debug transport, loading and reading back.
 #include <algorithm>
 
+#include "modules/dram/byte_store.h"
 #include "modules/dram/dram_controller.h"
-#include "modules/dram/payload_bytes.h"
 
 namespace sgs {
 

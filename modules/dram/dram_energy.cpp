@@ -175,7 +175,6 @@ DramEnergy dram_energy(const Memspec& m, const Memspec::Currents& c,
     sum.vdd2 += rail2;
     EnergyParts both = rail1;
     both += rail2;
-    sum.by_rank.push_back(both);
     sum.shared_pj += both.refresh_pj + both.active_standby_pj + both.precharged_standby_pj +
                      both.power_down_pj + both.self_refresh_pj;
   }

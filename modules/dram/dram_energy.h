@@ -33,7 +33,6 @@ struct EnergyParts {
 struct DramEnergy {
   EnergyParts vdd1;
   EnergyParts vdd2;                        // io_pj, which no rail is published for, is counted here
-  std::vector<EnergyParts> by_rank;        // both rails; channel * ranks + rank
   std::array<double, 256> by_region_pj{};  // activate, read, write and I/O of its requests
   double shared_pj = 0;                    // standby, low-power states and refresh
   double total_pj() const { return vdd1.total_pj() + vdd2.total_pj(); }

@@ -4,7 +4,9 @@
 namespace sgs {
 
 namespace {
+
 double ratio(double part, double whole) { return whole > 0 ? part / whole : 0.0; }
+
 }  // namespace
 
 DramChannelStats DramStats::all_channels() const {

@@ -24,9 +24,6 @@ class RankMaintenance {
  public:
   RankMaintenance(const DramConfig& config, const Memspec& memspec, std::uint32_t rank);
 
-  // The controller names the bank of a per-bank refresh.
-  bool names_bank() const { return names_bank_; }
-
   // Requests that are through the front end wait for these banks of the rank, a bit each, from
   // `cycle` on. A refresh whose bank the controller names goes to one that nobody waits for. True
   // if that changes next() or request_limit().

@@ -197,13 +197,4 @@ RequestTrace read_request_trace(const std::string& path, double cycle_ns) {
   return Reader(path, cycle_ns).run();
 }
 
-RequestTraceWriter::RequestTraceWriter(OutputFile& to) : to_(to) {
-  to_.write(fmt::format("{}\n", kHeader));
-}
-
-void RequestTraceWriter::add(const MemoryRequest& r) {
-  to_.write(fmt::format("0x{:x} {} {:.6f} {}\n", r.address, r.write ? 'W' : 'R', r.not_before_ns,
-                        r.bytes));
-}
-
 }  // namespace sgs

@@ -12,8 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/files/output_file.h"
-
 namespace sgs {
 
 struct MemoryRequest {
@@ -31,16 +29,5 @@ struct RequestTrace {
 // Cycles of traces that have them are `cycle_ns` long. Throws InputError with file and line for a
 // line that is no request of the form.
 RequestTrace read_request_trace(const std::string& path, double cycle_ns);
-
-class RequestTraceWriter {
- public:
-  // Writes to `to`, which whoever made it commits.
-  explicit RequestTraceWriter(OutputFile& to);
-
-  void add(const MemoryRequest& request);
-
- private:
-  OutputFile& to_;
-};
 
 }  // namespace sgs

@@ -8,7 +8,7 @@
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/render/paper_losses.h"
 #include "algorithm/render/paper_renderer.h"
-#include "algorithm/voxel/voxel_cuts.h"
+#include "algorithm/voxel/voxel_grid.h"
 #include "modules/streaminggs/paper_machine.h"
 #include "modules/streaminggs/pipeline_depths.h"
 #include "modules/streaminggs/streaming_design.h"

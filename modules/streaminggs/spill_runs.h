@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "algorithm/memory/regions.h"
+#include "algorithm/memory/scene_layout.h"
 #include "tlm/memory_access.h"
 
 namespace sgs {

@@ -4,7 +4,6 @@ or a marker of its own. Needs Matplotlib, which figures.py asks for first."""
 
 from __future__ import annotations
 
-import csv
 import dataclasses
 import os
 import pathlib
@@ -19,7 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 from reporting import costs
 from reporting.folder import Run, find_runs
-from runs.files import read_text
+from runs.files import read_csv
 from tables import facts_of, made_sentence
 
 
@@ -61,15 +60,10 @@ class Results:
         path = self.tables / f"{name}.csv"
         if not path.exists():
             raise Missing(f"{path} is not there; scripts/{maker} --out {self.tables} makes it")
-        head, *rows = list(csv.reader(read_text(path).splitlines())) or [[]]
+        head, rows = read_csv(path)
         for column in columns:
             if column not in head:
                 raise ValueError(f"{path}: columns {', '.join(head)}; expected {column}")
-        for number_of_line, row in enumerate(rows, start=2):
-            if len(row) != len(head):
-                raise ValueError(
-                    f"{path}:{number_of_line}: got {len(row)} cells, expected {len(head)}"
-                )
         if not rows:
             raise Missing(f"{path} has no rows")
         made = made_sentence(facts_of(self.tables, name)).replace("`", "").strip()

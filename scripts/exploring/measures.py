@@ -1,10 +1,14 @@
 """Numbers that an exploration reads off the reports of a configuration's views: what it makes small
-or large, what it requires and what it shows beside.
+or large (--objectives), what it requires (--require) and what it shows beside, by which nothing is
+judged (--show).
 
   MEASURE      PATH or AGGREGATE(PATH)
   AGGREGATE    sum, mean, min, max, p99: the value that 99 of 100 views are below or at; geomean:
                the geometric mean over the scenes of the means over their views
-  PATH         of a number in a view's report.json, such as dram.row_conflicts, or a name of NAMES
+  PATH         of a number in a view's report.json, such as dram.row_conflicts, or one of the names
+               fps, cycles, seconds, dram_bytes, joules, watts, mm2, mm2_high (the upper end of its
+               band), mm2_with_phy, psnr_db; sram_bytes; filter_lanes, the multiply-accumulate lanes
+               of coarse and fine filters; joules_mean is mean(joules)
   OBJECTIVE    MEASURE, min:MEASURE or max:MEASURE
   REQUIREMENT  MEASURE >= BOUND or MEASURE <= BOUND; each(PATH): the mean over the views of each
                scene

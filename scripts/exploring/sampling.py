@@ -34,7 +34,7 @@ MOST_ATTEMPTS = 5
 MOST_IDLE = 5  # polls, until what is missing counts as given up
 CLAIM_SECONDS = 300  # more than a queue of thousands takes
 MOST_RETRIES = 3  # of a configuration whose worker was lost
-REFUSED_TEXT, VIOLATIONS, JUDGED, SAME_AS = "refused", "violations", "judged", "same_as"
+VIOLATIONS, JUDGED, SAME_AS = "violations", "judged", "same_as"
 SPACE, TASK, CLAIM, FILLED = "space", "task", "claim", "filled"
 States = optuna.trial.TrialState
 

@@ -3,13 +3,12 @@ which kind what the page reads of a report.json has to be."""
 
 from __future__ import annotations
 
-import csv
 import dataclasses
 import pathlib
 from collections.abc import Iterator, Mapping
 
 from reporting import charts
-from runs.files import read_bytes, read_json, read_text
+from runs.files import read_bytes, read_csv, read_json
 
 REPORT = "report.json"
 DEEPEST = 3  # folders below the one that is named: out/SCENE/CONFIG and one more
@@ -103,9 +102,9 @@ def read_groups(path: pathlib.Path) -> dict[str, list[int]]:
     """Raises ValueError where a line is not whole numbers, as many as there are names."""
     if not path.exists():
         return {}
-    head, *rows = list(csv.reader(read_text(path).splitlines())) or [[]]
+    head, rows = read_csv(path)
     for number, row in enumerate(rows, start=2):
-        if len(row) != len(head) or not all(cell.isdecimal() for cell in row):
+        if not all(cell.isdecimal() for cell in row):
             raise ValueError(f"{path}:{number}: got {','.join(row)}, expected {len(head)} counts")
     return {name: [int(row[at]) for row in rows] for at, name in enumerate(head)}
 
@@ -179,13 +178,7 @@ def find_tables(folder: pathlib.Path) -> list[Table]:
 def read_table(path: pathlib.Path) -> Table:
     """Raises ValueError for a row of more or fewer cells than the head. What a killed writer has
     left of its last line does not count."""
-    text = read_text(path)
-    head, *rows = list(csv.reader(text.splitlines())) or [[]]
-    if rows and len(rows[-1]) != len(head) and not text.endswith("\n"):
-        rows.pop()
-    for number, row in enumerate(rows, start=2):
-        if len(row) != len(head):
-            raise ValueError(f"{path}:{number}: got {len(row)} cells, expected {len(head)}")
+    head, rows = read_csv(path, killed_writer=True)
     return Table(path.stem, tuple(head), tuple(map(tuple, rows)))
 
 

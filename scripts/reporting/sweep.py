@@ -4,7 +4,6 @@ table, and each point's configuration with how to run it again."""
 from __future__ import annotations
 
 import contextlib
-import csv
 import dataclasses
 import json
 import math
@@ -15,7 +14,7 @@ from collections.abc import Callable, Collection, Sequence
 from reporting import tables
 from reporting.charts import details, escaped
 from reporting.folder import Table, flat
-from runs.files import read_text
+from runs.files import read_csv, read_text
 from runs.simulations import pareto_front, pictures_differ, value_at, with_pictures
 
 DONE = "done"
@@ -136,7 +135,7 @@ def number_in(text: str) -> object:
 def read_table(path: pathlib.Path) -> list[Point]:
     """Settings are those that the table shows, the model's choices among them. Raises
     ValueError."""
-    head, *rows = list(csv.reader(read_text(path).splitlines())) or [[]]
+    head, rows = read_csv(path)
     missing = [name for name in (*NAMED, "status", *NEEDED) if name not in head]
     if missing:
         raise ValueError(
@@ -145,8 +144,6 @@ def read_table(path: pathlib.Path) -> list[Point]:
     keys = head[head.index("config") + 1 : head.index("status")]
     points = []
     for number, row in enumerate(rows, start=2):
-        if len(row) != len(head):
-            raise ValueError(f"{path}:{number}: got {len(row)} cells, expected {len(head)}")
         cells = {name: cell for name, cell in zip(head, row) if cell}
         settings = {key: cells[key] for key in keys if key in cells}
         point = Point(

@@ -242,21 +242,8 @@ def traffic_of_views(runs: Sequence[Run]) -> str:
 
 
 def table_of_views(runs: Sequence[Run]) -> Table:
-    head = (
-        "run",
-        "scene",
-        "view",
-        "px",
-        "fps",
-        "cycles",
-        "PSNR",
-        "DRAM MB",
-        "mJ",
-        "W",
-        "mm2",
-        "mm2 with PHY",
-        "binds",
-    )
+    head = ("run", "scene", "view", "px", "fps", "cycles", "PSNR", "DRAM MB", "mJ", "W", "mm2")
+    head += ("mm2 with PHY", "binds")
     rows = []
     for run in runs:
         for files in run.shown():

@@ -4,6 +4,7 @@ reads."""
 
 from __future__ import annotations
 
+import csv
 import functools
 import hashlib
 import json
@@ -23,6 +24,19 @@ def read_bytes(path: pathlib.Path) -> bytes:
 def read_text(path: pathlib.Path) -> str:
     """The same of a text; bytes that are none are replaced."""
     return read_bytes(path).decode("utf-8", errors="replace")
+
+
+def read_csv(path: pathlib.Path, killed_writer: bool = False) -> tuple[list[str], list[list[str]]]:
+    """Head and rows. Raises ValueError for a row of more or fewer cells than the head.
+    killed_writer: what one has left of its last line does not count."""
+    text = read_text(path)
+    head, *rows = list(csv.reader(text.splitlines())) or [[]]
+    if killed_writer and rows and len(rows[-1]) != len(head) and not text.endswith("\n"):
+        rows.pop()
+    for number, row in enumerate(rows, start=2):
+        if len(row) != len(head):
+            raise ValueError(f"{path}:{number}: got {len(row)} cells, expected {len(head)}")
+    return head, rows
 
 
 def read_json(path: pathlib.Path) -> object:

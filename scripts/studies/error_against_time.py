@@ -18,10 +18,8 @@ from __future__ import annotations
 import argparse
 import csv
 import dataclasses
-import os
 import pathlib
 import sys
-import tempfile
 from collections.abc import Iterator, Sequence
 
 import tables
@@ -274,42 +272,15 @@ def make_image(scenes: list[Scene], arguments: argparse.Namespace) -> None:
     tables.draw_beside(arguments.out, "error_image")
 
 
-def check_read_by_benchmarks(scene: Scene) -> None:
-    """Raises ValueError for other forms than .ply with a .json of cameras."""
-    if scene.cameras and not scene.spec.endswith(".ply"):
-        raise ValueError(
-            f"{scene.spec}: renderers take a .ply, expected what `streaminggs convert {scene.spec} "
-            f"{scene.name}.ply` writes"
-        )
-    if scene.cameras and not pathlib.Path(scene.cameras).is_file():
-        raise ValueError(f"{scene.cameras}: renderers take a .json of cameras, expected one")
-
-
-def laid_out(scene: Scene, folder: pathlib.Path) -> str:
-    """As benchmarks find it: the cameras beside the scene, under its name."""
-    if not scene.cameras:
-        return scene.spec
-    place = folder / f"{scene.name}.ply"
-    os.symlink(os.path.abspath(scene.spec), place)
-    os.symlink(os.path.abspath(scene.cameras), place.with_suffix(".json"))
-    return str(place)
-
-
-def timed(program: pathlib.Path, scene: Scene, words: list[str]) -> list[list[str]]:
+def timed(program: pathlib.Path, scene: Scene, words: Sequence[str]) -> list[list[str]]:
     """Lines of RENDERER_COLUMNS. Raises ValueError for what the program refuses, Failure."""
-    with tempfile.TemporaryDirectory(prefix="streaminggs-") as folder:
-        spec = laid_out(scene, pathlib.Path(folder))
-        head, *rows = list(csv.reader(run_program(program, [*words, spec]).splitlines())) or [[]]
+    out = answered(program, scene.spec, words, program.name)
+    head, *rows = list(csv.reader(out.splitlines())) or [[]]
     expected = [column.name for column in RENDERER_COLUMNS]
     if head != expected:
         raise Failure(f"{program}: columns {', '.join(head)}; expected {', '.join(expected)}")
     # The program names scenes of one kind alike, whatever their parameters.
     return [[scene.name, *cells] for _, *cells in rows]
-
-
-def run_program(program: pathlib.Path, words: Sequence[str]) -> str:
-    first, *others = words
-    return answered(program, first, others, program.name)
 
 
 def make_renderers(scenes: list[Scene], arguments: argparse.Namespace) -> None:
@@ -319,11 +290,11 @@ def make_renderers(scenes: list[Scene], arguments: argparse.Namespace) -> None:
     rows = []
     for threads in arguments.threads:
         for scene in scenes:
-            for view in arguments.view.split(","):
-                words = ["--threads", str(threads), "--size", arguments.size, "--view", view]
-                facts = [*words, scene.name, scene.spec, scene.cameras]
-                _, found = keeper.kept(scene.name, facts, lambda *_: timed(program, scene, words))
-                rows += found
+            words = ["--threads", str(threads), "--size", arguments.size, "--view", arguments.view]
+            words += ["--cameras", scene.cameras] if scene.cameras else []
+            facts = [*words, scene.name, scene.spec]
+            _, found = keeper.kept(scene.name, facts, lambda *_: timed(program, scene, words))
+            rows += found
     by = tables.made(program, [program_provenance(arguments.streaminggs)], scenes)
     tables.write(arguments.out, "error_renderers", by, RENDERER_COLUMNS, rows)
     tables.draw_beside(arguments.out, "error_renderers")
@@ -399,8 +370,6 @@ def make(arguments: argparse.Namespace) -> None:
     scenes = find_scenes(arguments.scenes, arguments.cameras)
     for scene in scenes:
         view_numbers_there(arguments.streaminggs, scene, arguments.view)
-        if "renderers" in arguments.diagrams:
-            check_read_by_benchmarks(scene)
     if "tuning" in arguments.diagrams:
         dataset_folders(arguments)
     for name in arguments.diagrams:

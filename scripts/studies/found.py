@@ -25,7 +25,7 @@ from runs.simulations import (
     pareto_front,
     vsu_waits,
 )
-from tables import REQUIRED, SCENE, SIZE, VIEW, Column, Made, Study, measure_of
+from tables import REQUIRED, SCENE, SIZE, VIEW, Column, Study, measure_of
 
 PRESETS = ("exact", "paper", "exact_wide")
 BESIDE = "paper"  # whose cycles those of all others are held against
@@ -328,14 +328,8 @@ def make_smallest_machine(arguments: argparse.Namespace) -> None:
     if not found:
         raise ValueError("--found: expected WxH=FOLDER, explore.py makes it")
     folders = [pathlib.Path(folder) for folder in found.values()]
-    made = [Made(**tables.facts_of(folder, "explore")["made"]) for folder in folders]
-    by = Made(
-        run_arguments.command_line(),
-        tuple(sorted({commit for each in made for commit in each.commits})),
-        tuple(sorted({release for each in made for release in each.releases})),
-        made[0].program,
-        {name: digest for each in made for name, digest in each.inputs.items()},
-    )
+    facts = [tables.facts_of(folder, "explore") for folder in folders]
+    by = tables.made_together(run_arguments.command_line(), facts)
     rows = [smallest_row(size, folder) for size, folder in zip(found, folders)]
     tables.write(arguments.out, "smallest_machine", by, SMALLEST_COLUMNS, rows)
 

@@ -21,7 +21,6 @@
 #include "algorithm/vq/quantise.h"
 #include "algorithm/vq/vq_points.h"
 #include "testbench/bench/bench_scene.h"
-#include "testbench/bench/stopwatch.h"
 #include "testbench/command_line/guard.h"
 
 namespace {

@@ -1,6 +1,8 @@
-// The scenes that scripts/bench.sh hands to every benchmark.
+// Scenes and times of benchmarks; scripts/bench.sh hands the scenes to all of them.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,21 @@ inline Scene load_bench_scene(const std::string& spec) {
     scene.cameras = read_view_cameras(spec.substr(0, spec.rfind('.')) + ".json").cameras;
   }
   return scene;
+}
+
+// Wall time of work(), milliseconds.
+template <class Work>
+double time_ms(const Work& work) {
+  const auto began = std::chrono::steady_clock::now();
+  work();
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - began;
+  return took.count();
+}
+
+// The upper one of two middles; `times` must not be empty.
+inline double median(std::vector<double> times) {
+  std::sort(times.begin(), times.end());
+  return times[times.size() / 2];
 }
 
 }  // namespace sgs

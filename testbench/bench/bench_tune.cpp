@@ -24,11 +24,10 @@
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/tune/adam.h"
+#include "algorithm/tune/group_sequences.h"
 #include "algorithm/tune/photometric_loss.h"
 #include "algorithm/tune/scene_gradient.h"
-#include "algorithm/tune/visited_sequences.h"
 #include "testbench/bench/bench_scene.h"
-#include "testbench/bench/stopwatch.h"
 #include "testbench/command_line/guard.h"
 
 namespace {

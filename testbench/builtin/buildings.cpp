@@ -8,8 +8,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "testbench/builtin/noise.h"
-#include "testbench/builtin/patch.h"
+#include "testbench/builtin/random.h"
 #include "testbench/builtin/shapes.h"
 #include "testbench/builtin/terrain.h"
 

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "testbench/builtin/lighting.h"
 #include "testbench/builtin/scene_builder.h"
 
 namespace sgs {

@@ -4,15 +4,17 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <map>
 #include <string_view>
 
 #include "algorithm/files/input_error.h"
-#include "algorithm/files/nearest_name.h"
 #include "testbench/builtin/object_scene.h"
 #include "testbench/builtin/outdoor_scene.h"
 
 namespace sgs {
+
 namespace {
 
 constexpr std::string_view kPrefix = "builtin:";
@@ -74,5 +76,22 @@ BuiltinScene make_builtin_scene(const std::string& spec) {
 }
 
 BuiltinPath builtin_path(const std::string& spec) { return order_of(spec).recipe.path(); }
+
+Camera look_at(int id, const std::string& name, const glm::dvec3& eye, const glm::dvec3& target,
+               double fov_degrees) {
+  constexpr glm::dvec3 kDown(0.0, 1.0, 0.0);
+  Camera camera;
+  camera.id = id;
+  camera.name = name;
+  camera.width = 640;
+  camera.height = 360;
+  camera.focal_x = 0.5 * camera.width / std::tan(0.5 * fov_degrees * M_PI / 180.0);
+  camera.focal_y = camera.focal_x;
+  camera.position = eye;
+  const glm::dvec3 forward = glm::normalize(target - eye);
+  const glm::dvec3 right = glm::normalize(glm::cross(kDown, forward));
+  camera.world_from_camera = glm::dmat3(right, glm::cross(forward, right), forward);
+  return camera;
+}
 
 }  // namespace sgs

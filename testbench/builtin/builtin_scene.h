@@ -1,6 +1,7 @@
 // Scenes made by the program itself, for demonstrations and for tests that need no files.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <string>
 #include <vector>
 
@@ -37,5 +38,10 @@ BuiltinScene make_builtin_scene(const std::string& spec);
 // The way through the scene of `spec`: `turntable`, round the object, or `walk`, over the meadow of
 // outdoor to its pond and on to the house. Throws InputError as above.
 BuiltinPath builtin_path(const std::string& spec);
+
+// A 640x360 camera at `eye` that looks at `target` with level horizon (world y down) and a
+// horizontal field of view of `fov_degrees`. The line of sight must not be vertical.
+Camera look_at(int id, const std::string& name, const glm::dvec3& eye, const glm::dvec3& target,
+               double fov_degrees);
 
 }  // namespace sgs

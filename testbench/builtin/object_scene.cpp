@@ -8,10 +8,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "testbench/builtin/camera_rig.h"
-#include "testbench/builtin/lighting.h"
-#include "testbench/builtin/noise.h"
-#include "testbench/builtin/patch.h"
+#include "testbench/builtin/builtin_scene.h"
+#include "testbench/builtin/random.h"
 #include "testbench/builtin/scene_builder.h"
 #include "testbench/builtin/shapes.h"
 #include "testbench/builtin/toy_rocket.h"

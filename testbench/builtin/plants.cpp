@@ -6,8 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "testbench/builtin/noise.h"
-#include "testbench/builtin/patch.h"
+#include "testbench/builtin/random.h"
 #include "testbench/builtin/shapes.h"
 #include "testbench/builtin/terrain.h"
 

@@ -4,7 +4,6 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "testbench/builtin/lighting.h"
 #include "testbench/builtin/scene_builder.h"
 
 namespace sgs {

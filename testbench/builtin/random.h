@@ -1,4 +1,5 @@
-// Random numbers and even point sets that are the same with every compiler and library.
+// Random numbers, even point sets and smooth noise that are the same with every compiler and
+// library.
 #pragma once
 
 #include <cmath>
@@ -47,5 +48,14 @@ inline glm::dvec2 even_point(std::uint64_t index) {
   const double y = 0.5 + kStepY * static_cast<double>(index);
   return {x - std::floor(x), y - std::floor(y)};
 }
+
+// Value noise: 0 to 1, smooth, features of about one unit, the same everywhere for equal input.
+double value_noise(const glm::dvec3& point);
+
+// Sum of `octaves` of value noise, each of half the size and half the weight; 0 to 1.
+double fractal_noise(const glm::dvec3& point, int octaves);
+
+// 0 below `low`, 1 above `high`, smooth between.
+double smooth_step(double low, double high, double value);
 
 }  // namespace sgs

@@ -1,4 +1,4 @@
-// The ground of the built-in scene `outdoor`.
+// The ground of the built-in scene `outdoor`, and its pond.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -28,5 +28,7 @@ glm::dvec3 hazed(const glm::dvec3& colour, const glm::dvec3& position);
 
 // Ground and grass.
 std::vector<ScenePart> terrain_parts(double share);
+
+std::vector<ScenePart> pond_parts(double share);
 
 }  // namespace sgs

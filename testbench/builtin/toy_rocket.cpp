@@ -4,8 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "testbench/builtin/noise.h"
-#include "testbench/builtin/patch.h"
+#include "testbench/builtin/random.h"
 #include "testbench/builtin/shapes.h"
 
 namespace sgs {

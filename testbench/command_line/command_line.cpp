@@ -10,7 +10,6 @@
 #include <filesystem>
 
 #include "algorithm/files/input_error.h"
-#include "algorithm/files/nearest_name.h"
 #include "testbench/command_line/version.h"
 
 namespace sgs {

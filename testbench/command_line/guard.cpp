@@ -13,9 +13,10 @@
 #include <new>
 
 #include "algorithm/files/input_error.h"
-#include "algorithm/files/part_files.h"
+#include "algorithm/files/output_file.h"
 
 namespace sgs {
+
 namespace {
 
 // A stream that the caller has closed must not become the number of the next file that is opened:
@@ -44,6 +45,23 @@ int run_and_catch(const std::string& program, const std::function<int()>& body) 
   return kFailed;
 }
 
+struct Caught {
+  int signal;
+  void (*before)(int) = SIG_DFL;  // its handler until then
+};
+
+volatile std::sig_atomic_t wished_now = 0;
+Caught caught[] = {{SIGINT}, {SIGTERM}};
+
+void put_back() {
+  for (const Caught& c : caught) std::signal(c.signal, c.before);
+}
+
+extern "C" void note_wish(int) {
+  wished_now = 1;
+  put_back();
+}
+
 }  // namespace
 
 int run_guarded(const std::string& program, const std::function<int()>& body) {
@@ -58,5 +76,12 @@ int run_guarded(const std::string& program, const std::function<int()>& body) {
                                 errno == 0 ? "" : fmt::format(" ({})", std::strerror(errno))));
   return status == kDone ? kFailed : status;
 }
+
+Interrupt::Interrupt() {
+  wished_now = 0;
+  for (Caught& c : caught) c.before = std::signal(c.signal, note_wish);
+}
+Interrupt::~Interrupt() { put_back(); }
+bool Interrupt::wished() const { return wished_now != 0; }
 
 }  // namespace sgs

@@ -8,7 +8,6 @@
 
 #include "algorithm/files/data_files.h"
 #include "algorithm/files/input_error.h"
-#include "algorithm/files/nearest_name.h"
 
 namespace sgs {
 namespace {

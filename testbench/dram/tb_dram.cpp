@@ -14,7 +14,6 @@
 #include "testbench/command_line/config_source.h"
 #include "testbench/command_line/program.h"
 #include "testbench/dram/bench_table.h"
-#include "testbench/dram/part_streams.h"
 #include "testbench/dram/self_check.h"
 #include "testbench/dram/stats_table.h"
 #include "tlm/no_banner.h"
@@ -35,7 +34,7 @@ struct Arguments {
   std::string vcd, dram_trace, check, replay, stream;
   std::string published = data_file("published.json");
   ConfigSource config;
-  bool table = false, curve = false, speed = false, print_config = false;
+  bool table = false, curve = false, print_config = false;
 };
 
 // As the accelerator's configuration names it.
@@ -189,7 +188,7 @@ int run_self_check(const Arguments& a, const DramConfig& config) {
 
 // Tables and traces bring the memory that they are of.
 void refuse_unused_config(const Arguments& a) {
-  const char* mode = !a.check.empty() ? "--check" : a.table ? "--table" : a.speed ? "--speed" : "";
+  const char* mode = !a.check.empty() ? "--check" : a.table ? "--table" : "";
   if (*mode == 0 || (a.config.config.empty() && a.config.overrides.empty())) return;
   throw InputError(
       fmt::format("--config, --set: got them with {}, which brings its own memory, expected "
@@ -208,10 +207,9 @@ int run(const Arguments& a) {
   const Memspec memspec = load_memspec(config.memspec);
   for (const std::string& warning : check_memspec(memspec, config.memspec))
     fmt::print(stderr, "tb_dram: note: {}\n", warning);
-  if (a.table || a.curve || a.speed) {
+  if (a.table || a.curve) {
     const int status = a.table ? print_benchmarks(a) : kDone;
     if (a.curve) print_latency_curve(config, std::min<std::uint64_t>(a.requests, 200000));
-    if (a.speed) print_speed(a.requests);
     return status;
   }
   if (!a.stream.empty() || !a.replay.empty()) return run_requests(a, config);
@@ -233,7 +231,6 @@ int sc_main(int argc, char* argv[]) {
   line.file("--check", a.check, "check a command trace against the device's constraints");
   line.flag("--table", a.table, "benchmarks beside public simulators and closed forms");
   line.flag("--curve", a.curve, "latency against throughput");
-  line.flag("--speed", a.speed, "requests per wall second");
   line.file("--published", a.published, "data file of the published figures");
   line.one_of({"seq", "rnd", "stride"}, "--stream", a.stream, "measure one stream");
   line.file("--replay", a.replay,

@@ -15,11 +15,14 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <string>
+#include <systemc>
 #include <utility>
 
 #include "algorithm/files/input_error.h"
 
 namespace sgs {
+
 namespace {
 
 enum class Answer : char { kResult, kFailure, kRefusal };
@@ -72,6 +75,14 @@ void end_with(pid_t parent) {
   } catch (const std::exception& error) {
     fail_child(error.what());
   }
+}
+
+void handle(const sc_core::sc_report& report, const sc_core::sc_actions& actions) {
+  if (report.get_severity() < sc_core::SC_ERROR) {
+    sc_core::sc_report_handler::default_handler(report, actions);
+    return;
+  }
+  fail_child(std::string(report.get_msg_type()) + ": " + report.get_msg());
 }
 
 }  // namespace
@@ -144,5 +155,11 @@ std::string ChildProcess::result() {
   if (kind == Answer::kFailure) throw ChildFailure(text);
   return text;
 }
+
+std::string in_child(const std::function<std::string()>& work) {
+  return ChildProcess(work).result();
+}
+
+void fail_child_on_sc_error() { sc_core::sc_report_handler::set_handler(handle); }
 
 }  // namespace sgs

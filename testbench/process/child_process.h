@@ -50,4 +50,12 @@ class ChildProcess {
 // For a child that cannot throw where it stands: ends it at once, and result() throws `why`.
 [[noreturn]] void fail_child(const std::string& why);
 
+// Runs work() in a forked child and returns what it returns. Throws as ChildProcess does.
+std::string in_child(const std::function<std::string()>& work);
+
+// From now on an error ends the child where it is, and who asks for its result is told what it
+// says. Thrown through the stack of a SystemC process it would upset AddressSanitizer, and there is
+// nothing to unwind for.
+void fail_child_on_sc_error();
+
 }  // namespace sgs

@@ -214,12 +214,6 @@ std::uint64_t ActivityResult::waited_for(WaitFor what) const {
   return sum;
 }
 
-std::uint64_t ActivityResult::waited() const {
-  std::uint64_t sum = 0;
-  for (const WaitResult& wait : waits) sum += wait.cycles;
-  return sum;
-}
-
 void LeftOutCollector::left_out(const char* what, const char* why, std::uint64_t count,
                                 const std::string& saves) {
   if (count == 0) return;

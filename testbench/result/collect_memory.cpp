@@ -2,9 +2,27 @@
 #include "testbench/result/collect_memory.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace sgs {
+
 namespace {
+
+class Paths : public DataSheet {
+ public:
+  void port(MemoryPort& port, const char*) override {
+    constexpr double kDirections = 2, kByteBits = 8;
+    const MemoryPortConfig& config = port.config();
+    const double bits = kDirections * kByteBits * config.width_bytes;
+    const double moved = kByteBits * static_cast<double>(port.bytes_read() + port.bytes_written());
+    wide += bits;
+    passed += moved;
+    registers += bits * config.path_cycles;
+    registered += moved * config.path_cycles;
+  }
+  double wide = 0, passed = 0;           // bits of all ports, and through them
+  double registers = 0, registered = 0;  // the same of the stages
+};
 
 RegionTraffic& entry(std::vector<RegionTraffic>& traffic, const std::string& region,
                      const std::string& requester) {
@@ -16,6 +34,23 @@ RegionTraffic& entry(std::vector<RegionTraffic>& traffic, const std::string& reg
 }
 
 }  // namespace
+
+void add_memory_path(Machine& machine, std::uint32_t channels, MachineResult& result) {
+  constexpr const char* kComponent = "memory_path";
+  Paths paths;
+  machine.publish(paths);
+  if (paths.wide == 0) return;
+  OwnerResult owner{kComponent, {}, {}};
+  if (paths.registers > 0) {
+    owner.parts.push_back({kComponent, "register_bit", paths.registers, paths.registers});
+    result.operations.push_back({kComponent, "register_bit", paths.registered});
+  }
+  // A bit passes one of its channels' multiplexers.
+  owner.parts.push_back({kComponent, "crossbar_bit", channels * paths.wide, paths.wide});
+  result.operations.push_back({kComponent, "crossbar_bit", paths.passed});
+  result.parts.insert(result.parts.end(), owner.parts.begin(), owner.parts.end());
+  result.owners.push_back(std::move(owner));
+}
 
 MemoryResult collect_memory(const DramStats& stats, const Regions& regions,
                             const std::vector<std::string>& requesters) {

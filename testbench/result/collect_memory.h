@@ -1,14 +1,23 @@
 // The memory's counts and joules as values.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "algorithm/memory/regions.h"
+#include "algorithm/memory/scene_layout.h"
 #include "modules/dram/dram_stats.h"
+#include "modules/machine.h"
 #include "testbench/result/frame_result.h"
 
 namespace sgs {
+
+// The path between a machine's memory ports and the channels' controllers, paid by the machine.
+
+// Adds parts and operations of component "memory_path": for each port and direction the registers
+// of the path, and for each channel a multiplexer, a bit each; what passed them. The parts' owner
+// has the component's name.
+void add_memory_path(Machine& machine, std::uint32_t channels, MachineResult& result);
 
 // requesters: by number.
 MemoryResult collect_memory(const DramStats& stats, const Regions& regions,

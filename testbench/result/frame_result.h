@@ -28,7 +28,6 @@ struct ActivityResult {
   Remedy remedy;                  // to work faster
 
   std::uint64_t waited_for(WaitFor what) const;
-  std::uint64_t waited() const;
 };
 
 struct CounterResult {
@@ -137,5 +136,9 @@ struct FrameResult {
 
   double time_s() const { return static_cast<double>(cycles) / (clock_mhz * 1e6); }
 };
+
+std::string to_wire(const FrameResult& result);
+// Reads the bytes that to_wire() made in the same build.
+FrameResult from_wire(const std::string& bytes);
 
 }  // namespace sgs

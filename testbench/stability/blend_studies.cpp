@@ -112,22 +112,9 @@ Deviation slope_at(double rest, Random& random) {
   return deviation(share.falloff, front - back, abs(front) + abs(back));
 }
 
-Study study(const char* formula, const char* form, bool in_half, const char* axis, const char* unit,
-            std::vector<double> places) {
-  Study s;
-  s.formula = formula;
-  s.form = form;
-  s.arithmetic = in_half ? "half" : "float";
-  s.axis = axis;
-  s.unit = unit;
-  s.places = std::move(places);
-  return s;
-}
-
 // Where nothing is random.
-void set_sample(Study& s, Deviation (*f)(double)) {
-  s.sample = [f](double place, Random&) { return f(place); };
-  s.drawn = false;
+auto undrawn(Deviation (*f)(double)) {
+  return [f](double place, Random&) { return f(place); };
 }
 
 }  // namespace
@@ -139,81 +126,58 @@ std::vector<Study> blend_studies() {
   const std::vector<double> layers{1, 10, 100, 300, 1000, 2345, 10'000, 22'000, 100'000};
   const std::vector<double> until_finished{1, 10, 100, 200, 300, 500, 1000, 2345, 100'000};
   const std::vector<double> rests{0.9, 0.5, 0.1, 0.05, 0.02, 0.01};
-  std::vector<Study> out;
-
-  Study s = study("alpha = min(0.99, opacity 2^t)", "table of 64 parabolas", false, "opacity",
-                  "of alpha", opacities);
-  s.sample = alpha<F>;
-  s.law = [](double) { return 4 * u; };
-  s.law_text = "4 u";
-  s.why = "Does not break at either end.";
-  out.push_back(s);
-  s = study("alpha = min(0.99, opacity 2^t)", "table of 64 lines", true, "opacity", "of alpha",
-            opacities);
-  s.sample = alpha<H>;
-  s.law = [](double) { return 5 * h; };
-  s.law_text = "5 u";
-  s.why = "Does not break: 0.2 %, a tenth of what the exponent in half is off by.";
-  out.push_back(s);
-
-  s = study("light behind layers of 1/255", "T - alpha T", false, "layers", "of T", layers);
-  set_sample(s, through_layers<F>);
-  s.law = [](double place) { return place <= 10'000 ? 1.1 * u * place : INFINITY; };
-  s.law_text = "u layers";
-  s.why =
-      "Right until float ends at 22,000 layers; the pixel was finished at 2,345 (T < 10^-4). "
-      "The product alpha T is needed for the colour.";
-  out.push_back(s);
-  s.arithmetic = "half";
-  set_sample(s, through_layers<H>);
-  s.law = [](double place) { return place <= 1000 ? 1.1 * h * place : INFINITY; };
-  s.law_text = "u layers";
-  s.why =
-      "Each layer takes some 4 last places of T, rounded: percents of T from 1,000 layers on, "
-      "where T "
-      "is 0.02. The pixel is finished at 2,359; below 6 10^-5, which no pixel sees, T stands "
-      "still.";
-  out.push_back(s);
-
-  s = study("light behind one splat", "T - alpha T", false, "1 - alpha", "of T", rests);
-  s.sample = behind_one<F>;
-  s.law = [](double place) { return u * (1 + 1 / place); };
-  s.law_text = "u / (1 - alpha)";
-  s.why = "100 u at the cap of 0.99: nothing beside the 1 % of light that is left.";
-  out.push_back(s);
-
-  s = study("colour of a pixel, layers of 1/255", "C + c (alpha T)", false, "layers", "of white",
-            until_finished);
-  set_sample(s, white<F>);
-  s.law = [](double place) { return 2 * u * std::min(place, 2400.0); };
-  s.law_text = "2 u layers";
-  s.why = "Does not break: after 2,345 layers nothing is added.";
-  out.push_back(s);
-  s.arithmetic = "half";
-  set_sample(s, white<H>);
-  s.law = [](double place) { return 2 * h * std::min(place, 2400.0); };
-  s.why =
-      "What is less than half a last place of the sum (2.4 10^-4 of white from 0.5 on) is lost, "
-      "and "
-      "errors of T add up: 3.7 % of white once it is finished. A haze of a thousand splats wants "
-      "float.";
-  out.push_back(s);
-
-  s = study("dL/dalpha", "back to front: T (g c) - behind / (1 - alpha)", false, "layers",
-            "of sum |g c| alpha T", {1, 10, 100, 1000, 2345, 10'000});
-  s.sample = first_of;
-  s.law = [](double place) { return 8 * u + 4 * u * place; };
-  s.law_text = "8 u + 4 u layers";
-  s.why = "Does not break: nothing is taken away from a sum, as front to back would.";
-  out.push_back(s);
-  s = study("dL/dalpha", "back to front: T (g c) - behind / (1 - alpha)", false, "1 - alpha",
-            "of the two terms", rests);
-  s.sample = slope_at;
-  s.law = [](double) { return 4 * u; };
-  s.law_text = "4 u";
-  s.why = "Does not break: 1 - alpha is exact from 0.5 on, and never below 0.01.";
-  out.push_back(s);
-  return out;
+  const auto by_layers = [](double last, double roundoff) {
+    return [=](double place) { return place <= last ? 1.1 * roundoff * place : INFINITY; };
+  };
+  const auto until_done = [](double roundoff) {
+    return [=](double place) { return 2 * roundoff * std::min(place, 2400.0); };
+  };
+  const auto of_rest = [](double place) { return u * (1 + 1 / place); };
+  const auto of_slope = [](double place) { return 8 * u + 4 * u * place; };
+  const char *const alpha_is = "alpha = min(0.99, opacity 2^t)",
+                    *const light = "light behind layers of 1/255",
+                    *const pixel = "colour of a pixel, layers of 1/255",
+                    *const back = "back to front: T (g c) - behind / (1 - alpha)";
+  return {
+      {alpha_is, "table of 64 parabolas", "float", "opacity", "of alpha", opacities, alpha<F>,
+       flat(4 * u), "4 u", "Does not break at either end."},
+      {alpha_is, "table of 64 lines", "half", "opacity", "of alpha", opacities, alpha<H>,
+       flat(5 * h), "5 u",
+       "Does not break: 0.2 %, a tenth of what the exponent in half is off by."},
+      {light, "T - alpha T", "float", "layers", "of T", layers, undrawn(through_layers<F>),
+       by_layers(10'000, u), "u layers",
+       "Right until float ends at 22,000 layers; the pixel was finished at 2,345 (T < 10^-4). "
+       "The product alpha T is needed for the colour.",
+       false},
+      {light, "T - alpha T", "half", "layers", "of T", layers, undrawn(through_layers<H>),
+       by_layers(1000, h), "u layers",
+       "Each layer takes some 4 last places of T, rounded: percents of T from 1,000 layers on, "
+       "where T is 0.02. The pixel is finished at 2,359; below 6 10^-5, which no pixel sees, T "
+       "stands still.",
+       false},
+      {"light behind one splat", "T - alpha T", "float", "1 - alpha", "of T", rests, behind_one<F>,
+       of_rest, "u / (1 - alpha)",
+       "100 u at the cap of 0.99: nothing beside the 1 % of light that is left."},
+      {pixel, "C + c (alpha T)", "float", "layers", "of white", until_finished, undrawn(white<F>),
+       until_done(u), "2 u layers", "Does not break: after 2,345 layers nothing is added.", false},
+      {pixel, "C + c (alpha T)", "half", "layers", "of white", until_finished, undrawn(white<H>),
+       until_done(h), "2 u layers",
+       "What is less than half a last place of the sum (2.4 10^-4 of white from 0.5 on) is lost, "
+       "and errors of T add up: 3.7 % of white once it is finished. A haze of a thousand splats "
+       "wants float.",
+       false},
+      {"dL/dalpha",
+       back,
+       "float",
+       "layers",
+       "of sum |g c| alpha T",
+       {1, 10, 100, 1000, 2345, 10'000},
+       first_of,
+       of_slope,
+       "8 u + 4 u layers",
+       "Does not break: nothing is taken away from a sum, as front to back would."},
+      {"dL/dalpha", back, "float", "1 - alpha", "of the two terms", rests, slope_at, flat(4 * u),
+       "4 u", "Does not break: 1 - alpha is exact from 0.5 on, and never below 0.01."}};
 }
 
 }  // namespace sgs

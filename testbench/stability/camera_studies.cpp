@@ -59,76 +59,38 @@ Deviation pixel(double beyond_near, Random& random) {
 }  // namespace
 
 std::vector<Study> camera_studies() {
-  std::vector<Study> out;
-
-  Study s;
-  s.formula = "v = R^T (p - c)";
-  s.form = "p - c, c as two floats";
-  s.arithmetic = "float";
-  s.axis = "coordinates";
-  s.unit = "of |p - c|";
-  s.places = decades(0, 8);
-  s.sample = far_from_origin<BoundedFloat>;
-  s.law = [](double) { return 12 * u; };
-  s.law_text = "12 u";
-  s.why =
-      "Does not break: the first difference is exact where p and c are close beside their "
-      "distance from the origin. What a file's floats leave of p at 10^8 (8 units) is the file's.";
-  out.push_back(s);
-
-  for (const bool in_half : {false, true}) {
-    s = {};
-    s.formula = "depth key v_z";
-    s.form = "bits of v_z";
-    s.arithmetic = in_half ? "half" : "float";
-    s.axis = "distance from the near plane";
-    s.unit = "of v_z";
-    s.places = decades(-6, 6);
-    s.sample = [in_half](double place, Random& random) {
-      return in_half ? depth<BoundedHalf>(place, random, Of::kDepth)
-                     : depth<BoundedFloat>(place, random, Of::kDepth);
-    };
-    s.law = [in_half](double place) {
-      if (in_half && place > 1e4) return static_cast<double>(INFINITY);
-      return (in_half ? h : u) * 16;
-    };
-    s.law_text = "16 u";
-    s.why =
-        in_half
-            ? "Two splats nearer to each other than 0.3 % of their depth may change places, beyond "
-              "65,504 all are one. Only the preset gscore has such keys."
-            : "Does not break: splats whose depths differ by a millionth are in order.";
-    out.push_back(s);
-  }
-
-  s = out[out.size() - 2];
-  s.formula = "v_z > 0.2";
-  s.form = "as the key";
-  s.unit = "of |v_z - 0.2|";
-  s.places = decades(6, -6);
-  s.sample = [](double place, Random& random) {
-    return depth<BoundedFloat>(place, random, Of::kDistance);
+  const auto key = [](double place, Random& r) {
+    return depth<BoundedFloat>(place, r, Of::kDepth);
   };
-  s.law = [](double place) { return 16 * u * (kNearPlane + 2 * place) / place; };
-  s.law_text = "16 u v_z / |v_z - 0.2|";
-  s.why =
-      "Nearer to the plane than 10^-6 a Gaussian may be drawn or not; nothing else computes with "
-      "that difference. Keep cameras out of surfaces.";
-  out.push_back(s);
-
-  s = {};
-  s.formula = "centre x = f v_x / v_z + c_x";
-  s.form = "as written";
-  s.arithmetic = "float";
-  s.axis = "distance from the near plane";
-  s.unit = "px";
-  s.places = decades(-6, 6);
-  s.sample = pixel<BoundedFloat>;
-  s.law = [](double) { return 3500 * u; };
-  s.law_text = "u (3 |x - c_x| + |x|)";
-  s.why = "Does not break: 10^-4 px at 1280 x 720, as much more as the frame is wider.";
-  out.push_back(s);
-  return out;
+  const auto key_in_half = [](double place, Random& r) {
+    return depth<BoundedHalf>(place, r, Of::kDepth);
+  };
+  const auto beyond_near = [](double place, Random& r) {
+    return depth<BoundedFloat>(place, r, Of::kDistance);
+  };
+  const auto beyond_near_law = [](double place) {
+    return 16 * u * (kNearPlane + 2 * place) / place;
+  };
+  const char* const near = "distance from the near plane";
+  return {
+      {"v = R^T (p - c)", "p - c, c as two floats", "float", "coordinates", "of |p - c|",
+       decades(0, 8), far_from_origin<BoundedFloat>, flat(12 * u), "12 u",
+       "Does not break: the first difference is exact where p and c are close beside their "
+       "distance from the origin. What a file's floats leave of p at 10^8 (8 units) is the "
+       "file's."},
+      {"depth key v_z", "bits of v_z", "float", near, "of v_z", decades(-6, 6), key, flat(16 * u),
+       "16 u", "Does not break: splats whose depths differ by a millionth are in order."},
+      {"depth key v_z", "bits of v_z", "half", near, "of v_z", decades(-6, 6), key_in_half,
+       flat_to(1e4, 16 * h), "16 u",
+       "Two splats nearer to each other than 0.3 % of their depth may change places, beyond 65,504 "
+       "all are one. Only the preset gscore has such keys."},
+      {"v_z > 0.2", "as the key", "float", near, "of |v_z - 0.2|", decades(6, -6), beyond_near,
+       beyond_near_law, "16 u v_z / |v_z - 0.2|",
+       "Nearer to the plane than 10^-6 a Gaussian may be drawn or not; nothing else computes with "
+       "that difference. Keep cameras out of surfaces."},
+      {"centre x = f v_x / v_z + c_x", "as written", "float", near, "px", decades(-6, 6),
+       pixel<BoundedFloat>, flat(3500 * u), "u (3 |x - c_x| + |x|)",
+       "Does not break: 10^-4 px at 1280 x 720, as much more as the frame is wider."}};
 }
 
 }  // namespace sgs

@@ -1,6 +1,6 @@
 // Activations and spherical harmonics, and their derivatives.
 #include "algorithm/tune/gaussian_gradient.h"
-#include "testbench/stability/exact_colour.h"
+#include "testbench/stability/exact.h"
 #include "testbench/stability/study.h"
 
 namespace sgs {
@@ -142,79 +142,61 @@ Deviation colour_slope(double distance, Random& random) {
   return worst;
 }
 
-Study study(const char* formula, const char* form, const char* axis, const char* unit,
-            std::vector<double> places) {
-  Study s;
-  s.formula = formula;
-  s.form = form;
-  s.arithmetic = "float";
-  s.axis = axis;
-  s.unit = unit;
-  s.places = std::move(places);
-  return s;
-}
-
 }  // namespace
 
 std::vector<Study> colour_studies() {
-  std::vector<Study> out;
-  Study s = study("scale = exp(s)", "in double, rounded once", "log-scale", "of the scale",
-                  {16, 8, 1, -1, -10, -40, -80, -90, -100, -110});
-  s.sample = scale;
-  s.law = [](double place) { return place >= -80 ? 1.001 * u : INFINITY; };
-  s.law_text = "u";
-  s.why =
-      "Below e^-87 a float has fewer digits, below e^-103 none: the axis has no thickness, which "
-      "0.3 px^2 hides at any depth. From 10^7 units (e^16.1) on the reader refuses.";
-  out.push_back(s);
-
-  s = study("opacity = sigmoid(o)", "in double, rounded once", "logit", "of the opacity",
-            {90, 30, 10, 1, -1, -10, -30, -80, -95, -110});
-  s.sample = opacity;
-  s.law = [](double place) { return place >= -80 ? 1.001 * u : INFINITY; };
-  s.law_text = "u";
-  s.why = "As the scale; below 1/255 (logit -5.5) nothing is drawn anyway. From 17 on it is 1.";
-  out.push_back(s);
-
-  s = study("q / |q|", "in double, rounded once", "|q|", "of 1", decades(-18, 18));
-  s.sample = rotation;
-  s.law = [](double) { return 1.001 * u; };
-  s.law_text = "u";
-  s.why = "Does not break: no square of a float leaves double.";
-  out.push_back(s);
-
-  s = study("derivative of the opacity", "e / (1 + e)^2, e = exp(-|o|)", "logit",
-            "of the derivative", {-80, -40, -10, 1, 5, 10, 15, 20, 40, 80, 95});
-  s.sample = opacity_slope;
-  s.law = [](double place) { return std::abs(place) < 86 ? 8 * u : INFINITY; };
-  s.law_text = "8 u";
-  s.why = "exp is clamped at e^-87: nothing moves such an opacity anyway.";
-  out.push_back(s);
-
-  s = study("colour, degree 3", "SH of the unit direction", "|p - c|", "of 0.5 + sum |coeff|",
-            decades(-6, 20));
-  s.sample = [](double place, Random& r) { return colour(place, 0.5, r); };
-  s.law = [](double place) { return place < 1e18 ? 32 * u : INFINITY; };
-  s.law_text = "32 u to 10^18";
-  s.why = "|p - c|^2 leaves float at 1.8 10^19; coordinates are refused from 10^18 on.";
-  out.push_back(s);
-
-  s = study("colour, degree 3", "SH of the unit direction", "coefficients", "of 0.5 + sum |coeff|",
-            decades(0, 38));
-  s.sample = [](double place, Random& r) { return colour(3, 3.4 * place, r); };
-  s.law = [](double place) { return place < 1e37 ? 32 * u : INFINITY; };
-  s.law_text = "32 u to 10^37";
-  s.why = "A sum of sixteen 3 10^38 is infinite; coefficients are refused from 10^18 on.";
-  out.push_back(s);
-
-  s = study("derivative of the colour by p", "by x, y, z of the direction, then tangential",
-            "|p - c|", "of sum |w coeff| / |p - c|", decades(-6, 20));
-  s.sample = colour_slope;
-  s.law = [](double place) { return place < 1e18 ? 256 * u : INFINITY; };
-  s.law_text = "256 u to 10^18";
-  s.why = "As the colour.";
-  out.push_back(s);
-  return out;
+  const auto by_distance = [](double place, Random& r) { return colour(place, 0.5, r); };
+  const auto by_size = [](double place, Random& r) { return colour(3, 3.4 * place, r); };
+  const auto rounded_once = [](double place) { return place >= -80 ? 1.001 * u : INFINITY; };
+  const auto slope_law = [](double place) { return std::abs(place) < 86 ? 8 * u : INFINITY; };
+  const auto below = [](double end, double error) {
+    return [=](double place) { return place < end ? error : INFINITY; };
+  };
+  const char *const in_double = "in double, rounded once", *const sh = "SH of the unit direction",
+                    *const of_sum = "of 0.5 + sum |coeff|";
+  return {
+      {"scale = exp(s)",
+       in_double,
+       "float",
+       "log-scale",
+       "of the scale",
+       {16, 8, 1, -1, -10, -40, -80, -90, -100, -110},
+       scale,
+       rounded_once,
+       "u",
+       "Below e^-87 a float has fewer digits, below e^-103 none: the axis has no thickness, which "
+       "0.3 px^2 hides at any depth. From 10^7 units (e^16.1) on the reader refuses."},
+      {"opacity = sigmoid(o)",
+       in_double,
+       "float",
+       "logit",
+       "of the opacity",
+       {90, 30, 10, 1, -1, -10, -30, -80, -95, -110},
+       opacity,
+       rounded_once,
+       "u",
+       "As the scale; below 1/255 (logit -5.5) nothing is drawn anyway. From 17 on it is 1."},
+      {"q / |q|", in_double, "float", "|q|", "of 1", decades(-18, 18), rotation, flat(1.001 * u),
+       "u", "Does not break: no square of a float leaves double."},
+      {"derivative of the opacity",
+       "e / (1 + e)^2, e = exp(-|o|)",
+       "float",
+       "logit",
+       "of the derivative",
+       {-80, -40, -10, 1, 5, 10, 15, 20, 40, 80, 95},
+       opacity_slope,
+       slope_law,
+       "8 u",
+       "exp is clamped at e^-87: nothing moves such an opacity anyway."},
+      {"colour, degree 3", sh, "float", "|p - c|", of_sum, decades(-6, 20), by_distance,
+       below(1e18, 32 * u), "32 u to 10^18",
+       "|p - c|^2 leaves float at 1.8 10^19; coordinates are refused from 10^18 on."},
+      {"colour, degree 3", sh, "float", "coefficients", of_sum, decades(0, 38), by_size,
+       below(1e37, 32 * u), "32 u to 10^37",
+       "A sum of sixteen 3 10^38 is infinite; coefficients are refused from 10^18 on."},
+      {"derivative of the colour by p", "by x, y, z of the direction, then tangential", "float",
+       "|p - c|", "of sum |w coeff| / |p - c|", decades(-6, 20), colour_slope, below(1e18, 256 * u),
+       "256 u to 10^18", "As the colour."}};
 }
 
 }  // namespace sgs

@@ -117,50 +117,35 @@ Deviation by_covariance(double condition, Random& random) {
 }  // namespace
 
 std::vector<Study> exponent_studies() {
-  std::vector<Study> out;
-  Study s;
-  s.formula = "exponent of the falloff";
-  s.form = "A dx^2 + C dy^2 + 2 B dx dy";
-  s.arithmetic = "float";
-  s.axis = "condition";
-  s.unit = "of e^power";
-  s.places = decades(0, 20);
-  s.sample = [](double place, Random& r) { return exponent(place, r, quadratic); };
-  s.law = [](double place) { return 200 * u * (1 + place); };
-  s.law_text = "200 u condition";
-  s.why =
-      "Three large terms cancel far out on a needle: percents of alpha there from 170 px of sigma "
-      "on, "
-      "noise from 2,000 px on (bounded: power > 0 is skipped). It is the original's form, to which "
-      "pictures are held; cut needles where it shows.";
-  out.push_back(s);
-
-  s.form = "A (dx + (B/A) dy)^2 + (C - B^2/A) dy^2, along x and y in units of their own";
-  s.arithmetic = "half";
-  s.sample = [](double place, Random& r) { return exponent(place, r, completed_in_half); };
-  s.law = [](double place) { return place < 1e6 ? 100 * h * (1 + std::sqrt(place)) : INFINITY; };
-  s.law_text = "100 u sqrt(condition) to 10^6";
-  s.why =
-      "5 % at a condition of 1,000, for a division a splat (B/A, in float) and 8 "
-      "multiply-accumulates a sub-tile more than the three terms. A needle of 170 px of one sigma "
-      "is still 37 % off at its far ends, where pictures hardly show it.";
-  out.push_back(s);
-
-  s = {};
-  s.formula = "derivative of the falloff by the covariance";
-  s.form = "sum f e e^T / 2, e = K d";
-  s.arithmetic = "float";
-  s.axis = "condition";
-  s.unit = "of sum |f| |e|^2";
-  s.places = decades(0, 20);
-  s.sample = by_covariance;
-  s.law = [](double place) { return place <= 1e12 ? 100 * u * (1 + std::sqrt(place)) : INFINITY; };
-  s.law_text = "100 u sqrt(condition) to 10^12";
-  s.why =
-      "e = K d cancels along a needle, once; from 10^5 px of sigma on a needle has no slope to "
-      "tune by.";
-  out.push_back(s);
-  return out;
+  const auto in_float = [](double place, Random& r) { return exponent(place, r, quadratic); };
+  const auto in_half = [](double place, Random& r) {
+    return exponent(place, r, completed_in_half);
+  };
+  const auto float_law = [](double place) { return 200 * u * (1 + place); };
+  const auto half_law = [](double place) {
+    return place < 1e6 ? 100 * h * (1 + std::sqrt(place)) : INFINITY;
+  };
+  const auto covariance_law = [](double place) {
+    return place <= 1e12 ? 100 * u * (1 + std::sqrt(place)) : INFINITY;
+  };
+  return {
+      {"exponent of the falloff", "A dx^2 + C dy^2 + 2 B dx dy", "float", "condition", "of e^power",
+       decades(0, 20), in_float, float_law, "200 u condition",
+       "Three large terms cancel far out on a needle: percents of alpha there from 170 px of sigma "
+       "on, noise from 2,000 px on (bounded: power > 0 is skipped). It is the original's form, to "
+       "which pictures are held; cut needles where it shows."},
+      {"exponent of the falloff",
+       "A (dx + (B/A) dy)^2 + (C - B^2/A) dy^2, along x and y in units of their own", "half",
+       "condition", "of e^power", decades(0, 20), in_half, half_law,
+       "100 u sqrt(condition) to 10^6",
+       "5 % at a condition of 1,000, for a division a splat (B/A, in float) and 8 "
+       "multiply-accumulates a sub-tile more than the three terms. A needle of 170 px of one sigma "
+       "is still 37 % off at its far ends, where pictures hardly show it."},
+      {"derivative of the falloff by the covariance", "sum f e e^T / 2, e = K d", "float",
+       "condition", "of sum |f| |e|^2", decades(0, 20), by_covariance, covariance_law,
+       "100 u sqrt(condition) to 10^12",
+       "e = K d cancels along a needle, once; from 10^5 px of sigma on a needle has no slope to "
+       "tune by."}};
 }
 
 }  // namespace sgs

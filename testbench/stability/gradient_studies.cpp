@@ -86,47 +86,32 @@ Deviation slopes(const ProjectedCase& c, Random& random, Input input) {
   return worst;
 }
 
-Study along_condition(Input input, const char* formula) {
-  Study s;
-  s.formula = formula;
-  s.form = "back through u1, u2";
-  s.arithmetic = "float";
-  s.axis = "condition";
-  s.unit = "of sum |w d output|";
-  s.places = decades(0, 20);
-  s.sample = [input](double place, Random& r) {
-    return slopes<BoundedFloat>(long_splat(place, r), r, input);
-  };
-  return s;
-}
-
 }  // namespace
 
 std::vector<Study> gradient_studies() {
-  std::vector<Study> out;
-  Study s = along_condition(Input::kMean, "derivative of the projection by p");
-  s.law = [](double) { return 256 * u; };
-  s.law_text = "256 u";
-  s.why = "Does not break: Cov2D is differentiated, not its inverse.";
-  out.push_back(s);
-  s.axis = "distance from the near plane";
-  s.places = decades(-6, 6);
-  s.sample = [](double place, Random& r) {
+  const auto along_condition = [](Input input, const char* formula, const char* why) {
+    const auto sample = [=](double place, Random& r) {
+      return slopes<BoundedFloat>(long_splat(place, r), r, input);
+    };
+    return Study{
+        formula, "back through u1, u2", "float", "condition", "of sum |w d output|", decades(0, 20),
+        sample,  flat(256 * u),         "256 u", why};
+  };
+  const char* const by_mean = "derivative of the projection by p";
+  Study near = along_condition(Input::kMean, by_mean, "Does not break: 1 / v_z is at most 5.");
+  near.axis = "distance from the near plane";
+  near.places = decades(-6, 6);
+  near.sample = [](double place, Random& r) {
     return slopes<BoundedFloat>(near_plane(place, r), r, Input::kMean);
   };
-  s.why = "Does not break: 1 / v_z is at most 5.";
-  out.push_back(s);
-  s = along_condition(Input::kScale, "derivative of the projection by scale");
-  s.law = [](double) { return 256 * u; };
-  s.law_text = "256 u";
-  s.why = "Does not break: thin axes have digits of their own.";
-  out.push_back(s);
-  s = along_condition(Input::kQuat, "derivative of the projection by q");
-  s.law = [](double) { return 256 * u; };
-  s.law_text = "256 u";
-  s.why = "Does not break; each component by itself, the part along q is taken away afterwards.";
-  out.push_back(s);
-  return out;
+  return {along_condition(Input::kMean, by_mean,
+                          "Does not break: Cov2D is differentiated, not its inverse."),
+          near,
+          along_condition(Input::kScale, "derivative of the projection by scale",
+                          "Does not break: thin axes have digits of their own."),
+          along_condition(Input::kQuat, "derivative of the projection by q",
+                          "Does not break; each component by itself, the part along q is taken "
+                          "away afterwards.")};
 }
 
 }  // namespace sgs

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "algorithm/splat/projection.h"
-#include "testbench/stability/exact_projection.h"
+#include "testbench/stability/exact.h"
 #include "testbench/stability/study.h"
 
 namespace sgs {

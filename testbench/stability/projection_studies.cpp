@@ -94,98 +94,54 @@ Deviation cutoff(double over_least, Random& random) {
   return deviation(visible_cutoff(BoundedFloat(opacity)), q, 1);
 }
 
-Study along_condition(const char* formula, const char* form, const char* unit) {
-  Study s;
-  s.formula = formula;
-  s.form = form;
-  s.arithmetic = "float";
-  s.axis = "condition";
-  s.unit = unit;
-  s.places = decades(0, 20);
-  return s;
-}
-
 }  // namespace
 
 std::vector<Study> projection_studies() {
   using F = BoundedFloat;
-  std::vector<Study> out;
-
-  Study s = along_condition("covariance J W Sigma W^T J^T + 0.3 I", "u_i . u_k, u = rows of J W M",
-                            "of its trace");
-  s.sample = covariance<F>;
-  s.law = [](double) { return 64 * u; };
-  s.law_text = "64 u";
-  s.why = "Does not break: scales are multiplied once, Sigma is never formed.";
-  out.push_back(s);
-  s = along_condition("determinant", "0.09 + 0.3 (|u1|^2 + |u2|^2) + |u1 x u2|^2",
-                      "of the determinant");
-  s.sample = determinant<F>;
-  s.law = [](double place) { return 32 * u + 64 * u * std::sqrt(place); };
-  s.law_text = "32 u + 64 u sqrt(condition)";
-  s.why =
-      "Needles never break it (of each product only one factor is small); discs seen on edge do "
-      "at 10^5 px, where u1 x u2 is the rounding of two parallel lengths. 8 products and 7 sums "
-      "more than a c - b^2, for 10^6 in condition; wider discs are cut by tiles alone.";
-  out.push_back(s);
-  s = along_condition("conic, the inverse", "by the minors", "of its largest entry");
-  s.sample = [](double place, Random& r) { return conic<F>(place, r, long_splat); };
-  s.law = [](double place) {
+  const auto of_long = [](double place, Random& r) { return conic<F>(place, r, long_splat); };
+  const auto of_wide = [](double place, Random& r) { return conic<F>(place, r, wide_disc); };
+  const auto of_round = [](double place, Random& r) {
+    return eigenvalue<F>(place, r, nearly_round);
+  };
+  const auto of_disc = [](double place, Random& r) { return eigenvalue<F>(place, r, wide_disc); };
+  const auto determinant_law = [](double place) { return 32 * u + 64 * u * std::sqrt(place); };
+  const auto conic_law = [](double place) {
     return place <= 1e12 ? 96 * u + 64 * u * std::sqrt(place) : INFINITY;
   };
-  s.law_text = "96 u + 64 u sqrt(condition) to 10^12";
-  s.why = "As the determinant, by which it is divided.";
-  out.push_back(s);
-  s = along_condition("conic, the inverse", "by the minors", "of its largest entry");
-  s.axis = "px of one sigma, discs";
-  s.places = decades(0, 11);
-  s.sample = [](double place, Random& r) { return conic<F>(place, r, wide_disc); };
-  s.law = [](double place) { return place <= 1e9 ? 1e3 * u : INFINITY; };
-  s.law_text = "1000 u below 10^9 px";
-  s.why =
-      "sigma^4 leaves float: the conic is 0 and the splat as opaque everywhere as at its centre, "
-      "which is right to a tenth of a sigma. Scales are refused from 10^7 units on.";
-  out.push_back(s);
-
-  s = along_condition("larger eigenvalue, of the radius", "mid + sqrt(((a - c)/2)^2 + b^2)",
-                      "of itself");
-  s.axis = "part by which the axes differ";
-  s.places = decades(0, -10);
-  s.places.front() = 0.5;
-  s.sample = [](double place, Random& r) { return eigenvalue<F>(place, r, nearly_round); };
-  s.law = [](double) { return 64 * u; };
-  s.law_text = "64 u";
-  s.why = "Does not break: nothing cancels where a splat is round.";
-  out.push_back(s);
-
-  s = along_condition("larger eigenvalue, of the radius", "mid + sqrt(((a - c)/2)^2 + b^2)",
-                      "of itself");
-  s.axis = "px of one sigma, discs";
-  s.places = decades(0, 11);
-  s.sample = [](double place, Random& r) { return eigenvalue<F>(place, r, wide_disc); };
-  s.law = [](double place) { return place <= 1e9 ? 64 * u : INFINITY; };
-  s.law_text = "64 u to 10^9 px";
-  s.why =
-      "Squares of squares leave float: the radius is infinite and all tiles are touched, which "
-      "they are.";
-  out.push_back(s);
-
-  s = along_condition("footprint: half side sqrt(q a)", "as written", "of sqrt(a + c)");
-  s.sample = half_side;
-  s.law = [](double) { return 256 * u; };
-  s.law_text = "256 u";
-  s.why = "Does not break; the footprint adds 10^-4 of it and 0.02 px.";
-  out.push_back(s);
-
-  s = along_condition("footprint: cutoff 2 ln(255 opacity)", "as written, + 10^-4", "of q");
-  s.axis = "255 opacity - 1";
-  s.places = decades(2, -7);
-  s.sample = cutoff;
-  s.law = [](double) { return 64 * u; };
-  s.law_text = "64 u";
-  s.why = "Does not break: far below the 10^-4 that is added, so nothing visible is cut.";
-  out.push_back(s);
-  return out;
+  const char *const radius = "larger eigenvalue, of the radius",
+                    *const by_mid = "mid + sqrt(((a - c)/2)^2 + b^2)",
+                    *const discs = "px of one sigma, discs";
+  std::vector<double> differing = decades(0, -10);
+  differing.front() = 0.5;
+  return {
+      {"covariance J W Sigma W^T J^T + 0.3 I", "u_i . u_k, u = rows of J W M", "float", "condition",
+       "of its trace", decades(0, 20), covariance<F>, flat(64 * u), "64 u",
+       "Does not break: scales are multiplied once, Sigma is never formed."},
+      {"determinant", "0.09 + 0.3 (|u1|^2 + |u2|^2) + |u1 x u2|^2", "float", "condition",
+       "of the determinant", decades(0, 20), determinant<F>, determinant_law,
+       "32 u + 64 u sqrt(condition)",
+       "Needles never break it (of each product only one factor is small); discs seen on edge do "
+       "at 10^5 px, where u1 x u2 is the rounding of two parallel lengths. 8 products and 7 sums "
+       "more than a c - b^2, for 10^6 in condition; wider discs are cut by tiles alone."},
+      {"conic, the inverse", "by the minors", "float", "condition", "of its largest entry",
+       decades(0, 20), of_long, conic_law, "96 u + 64 u sqrt(condition) to 10^12",
+       "As the determinant, by which it is divided."},
+      {"conic, the inverse", "by the minors", "float", discs, "of its largest entry",
+       decades(0, 11), of_wide, flat_to(1e9, 1e3 * u), "1000 u below 10^9 px",
+       "sigma^4 leaves float: the conic is 0 and the splat as opaque everywhere as at its centre, "
+       "which is right to a tenth of a sigma. Scales are refused from 10^7 units on."},
+      {radius, by_mid, "float", "part by which the axes differ", "of itself", differing, of_round,
+       flat(64 * u), "64 u", "Does not break: nothing cancels where a splat is round."},
+      {radius, by_mid, "float", discs, "of itself", decades(0, 11), of_disc, flat_to(1e9, 64 * u),
+       "64 u to 10^9 px",
+       "Squares of squares leave float: the radius is infinite and all tiles are touched, which "
+       "they are."},
+      {"footprint: half side sqrt(q a)", "as written", "float", "condition", "of sqrt(a + c)",
+       decades(0, 20), half_side, flat(256 * u), "256 u",
+       "Does not break; the footprint adds 10^-4 of it and 0.02 px."},
+      {"footprint: cutoff 2 ln(255 opacity)", "as written, + 10^-4", "float", "255 opacity - 1",
+       "of q", decades(2, -7), cutoff, flat(64 * u), "64 u",
+       "Does not break: far below the 10^-4 that is added, so nothing visible is cut."}};
 }
 
 }  // namespace sgs

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "algorithm/scene/gaussian_cloud.h"
-#include "algorithm/train/tuning_config.h"
+#include "algorithm/train/fitting.h"
 
 namespace sgs {
 

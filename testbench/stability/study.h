@@ -42,12 +42,20 @@ struct Study {
   std::string unit;        // unit of the errors
   std::vector<double> places;
   std::function<Deviation(double place, Random&)> sample;  // one random case at a place
-  bool drawn = true;                                       // else all cases of a place are one
   // The error by analysis: a function of the place, and in words. u: unit roundoff.
   std::function<double(double place)> law;
   std::string law_text;
-  std::string why;  // a sentence or two: the part that breaks, the reason, and the remedy
+  std::string why;    // a sentence or two: the part that breaks, the reason, and the remedy
+  bool drawn = true;  // else all cases of a place are one
 };
+
+// A law that is the same at all places; or up to a place, and says nothing beyond.
+inline auto flat(double error) {
+  return [=](double) { return error; };
+}
+inline auto flat_to(double last, double error) {
+  return [=](double place) { return place <= last ? error : INFINITY; };
+}
 
 struct PlaceResult {
   double place;

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "algorithm/storage/storage_scheme.h"
-#include "testbench/streaminggs/report/fact_line.h"
 #include "testbench/streaminggs/report/numbers.h"
 
 namespace sgs {

@@ -18,7 +18,6 @@
 #include "testbench/command_line/config_source.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/describe_packed.h"
-#include "testbench/streaminggs/report/fact_line.h"
 #include "testbench/streaminggs/report/numbers.h"
 #include "testbench/streaminggs/run/prepared_scene.h"
 #include "testbench/streaminggs/run/scene_arguments.h"

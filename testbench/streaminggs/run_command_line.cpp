@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "algorithm/files/input_error.h"
+#include "testbench/command_line/guard.h"
 #include "testbench/command_line/program.h"
-#include "testbench/command_line/while_doing.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/run/run_config.h"
 

@@ -9,11 +9,19 @@
 #include <utility>
 #include <vector>
 
-#include "testbench/timeline/group_range.h"
 #include "testbench/timeline/track_events.h"
 #include "tlm/activity.h"
 
 namespace sgs {
+
+// Groups of pixels, or tiles, by their numbers.
+
+// Both ends are among them.
+struct GroupRange {
+  std::uint32_t first = 0, last = UINT32_MAX;
+  bool holds(std::uint32_t group) const { return first <= group && group <= last; }
+  bool all() const { return first == 0 && last == UINT32_MAX; }
+};
 
 // Says what a place is called.
 using PlaceName = std::function<std::string(const sc_core::sc_object&)>;

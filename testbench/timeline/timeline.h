@@ -1,6 +1,7 @@
 // A trace for Perfetto: the states of every activity of a machine, and how full its queues were.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -9,12 +10,33 @@
 #include "modules/dram/dram_controller.h"
 #include "modules/machine.h"
 #include "testbench/timeline/activity_track.h"
-#include "testbench/timeline/bus_meter.h"
-#include "testbench/timeline/group_range.h"
 #include "testbench/timeline/instant_watcher.h"
 #include "testbench/timeline/track_events.h"
 
 namespace sgs {
+
+// Bytes on the memory's data buses over time.
+
+// Listens to the commands as long as it lives; a burst counts where its command stands.
+class BusMeter : public CommandSink {
+ public:
+  // step_ns: of time that is added up.
+  BusMeter(DramController& memory, double step_ns);
+  ~BusMeter() override { memory_.remove_command_sink(*this); }
+  BusMeter(const BusMeter&) = delete;
+  BusMeter& operator=(const BusMeter&) = delete;
+
+  void on_command(const CommandRecord& record) override;
+
+  // 10^9 B/s in each step up to now.
+  std::vector<double> gb_per_s();
+
+ private:
+  DramController& memory_;
+  const double step_ns_, steps_per_cycle_;
+  const std::uint64_t burst_bytes_;
+  std::vector<std::uint64_t> bytes_;
+};
 
 // A track for each activity, under its unit; counters of queues, memory ports, what units publish
 // as levels, and of the memory's bus. Times are cycles of the machine. It looks at what the

@@ -11,11 +11,12 @@
 
 #include "algorithm/files/input_error.h"
 #include "testbench/command_line/program.h"
-#include "testbench/process/in_child.h"
+#include "testbench/process/child_process.h"
 #include "tlm/no_banner.h"
 #include "tlm/time_resolution.h"
 
 namespace sgs::tb {
+
 namespace {
 
 constexpr unsigned kCaseSeconds = 120;  // units that chase each other forever are a failure too

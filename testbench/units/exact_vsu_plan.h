@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "algorithm/storage/build_memory_image.h"
+#include "algorithm/storage/encoded_cloud.h"
 #include "algorithm/voxel/chunk_tree.h"
 #include "modules/streaminggs/vsu/exact_vsu.h"
 #include "testbench/units/random_scene.h"

@@ -11,7 +11,7 @@
 #include "modules/gscore/gscore_job.h"
 #include "modules/gscore/line_buffer.h"
 #include "testbench/units/case_runner.h"
-#include "testbench/units/uniform.h"
+#include "testbench/units/random_scene.h"
 #include "testbench/units/unit_bench.h"
 
 namespace sgs::tb {
@@ -60,12 +60,6 @@ inline SceneLayout empty_layout(std::uint32_t gaussians) {
 
 // Bytes of a memory with room for any job of these benches.
 constexpr std::size_t kGscoreMemoryBytes = 24 << 20;
-
-inline BenchConfig still_gscore() {
-  BenchConfig config;
-  config.memory_bytes = kGscoreMemoryBytes;
-  return config;
-}
 
 // Entries as a lister would leave them: blocks from `first` on, chained by `next`.
 inline std::vector<std::byte> chained_blocks(const BlockFormat& format,

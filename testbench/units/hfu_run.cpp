@@ -6,7 +6,7 @@
 
 #include "algorithm/memory/splat_record.h"
 #include "modules/streaminggs/hfu/filter_datapaths.h"
-#include "testbench/units/random_splats.h"
+#include "testbench/units/random_scene.h"
 
 namespace sgs::tb {
 namespace {

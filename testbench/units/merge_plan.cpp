@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "testbench/units/random_splats.h"
+#include "testbench/units/random_scene.h"
 
 namespace sgs::tb {
 

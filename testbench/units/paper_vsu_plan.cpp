@@ -7,7 +7,7 @@
 #include "algorithm/voxel/cell_samples.h"
 #include "algorithm/voxel/ray_path.h"
 #include "algorithm/voxel/ray_sampling.h"
-#include "algorithm/voxel/voxel_cuts.h"
+#include "algorithm/voxel/voxel_grid.h"
 #include "modules/datapath/lane_steps.h"
 #include "modules/streaminggs/vsu/vsu_datapaths.h"
 

@@ -10,8 +10,8 @@
 #include "algorithm/render/group_state.h"
 #include "modules/datapath/lane_steps.h"
 #include "modules/datapath/rendering_flows.h"
+#include "modules/datapath/selection.h"
 #include "testbench/units/job_memory.h"
-#include "testbench/units/multiplexers.h"
 
 namespace sgs::tb {
 namespace {
@@ -242,8 +242,9 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
       8 * kSplatEntryBytes * taken + 8 * pixel_bytes(plan.job.frame_format) * pixels);
   const std::uint64_t of_place = memories_of_a_place(plan);
   if (of_place > 1) {
-    bench.check_operations("rendering", "select_bit",
-                           8 * plan.config.pixel_state_bytes() * levels(of_place) * pixels);
+    bench.check_operations(
+        "rendering", "select_bit",
+        8 * plan.config.pixel_state_bytes() * counter_bits(of_place - 1) * pixels);
   }
 }
 

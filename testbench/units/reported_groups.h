@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "modules/streaminggs/finished_groups.h"
-#include "testbench/units/checks.h"
+#include "testbench/units/case_runner.h"
 
 namespace sgs::tb {
 

@@ -197,7 +197,7 @@ int sc_main(int argc, char* argv[]) {
       plan.shape.gaussians = gaussians;
       plan.shape.sh_degree = degree;
       plan.passes = passes;
-      run_plan(test, still_gscore(), plan);
+      run_plan(test, still_bench(kGscoreMemoryBytes), plan);
     });
   };
   directed("empty scene", 0, 0, 1, 1);

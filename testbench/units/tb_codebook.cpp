@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstring>
 
+#include "modules/datapath/selection.h"
 #include "modules/streaminggs/hfu/codebook_buffer.h"
 #include "testbench/units/case_runner.h"
 #include "testbench/units/job_memory.h"
-#include "testbench/units/multiplexers.h"
 #include "testbench/units/unit_bench.h"
 
 namespace sgs::tb {
@@ -135,9 +135,10 @@ void check_requests(UnitBench& bench, const Plan& plan, const std::vector<Reques
   bench.check_counter("lines_read", lines);
   bench.check_counter("bank_conflict_cycles", waited);
   bench.check_operations("codebooks", "comparator", lines);
-  bench.check_operations("codebooks", "select_bit",
-                         8 * plan.config.line_bytes * lines *
-                             (levels(memories(plan)) + levels(plan.config.line_bytes / 4)));
+  bench.check_operations(
+      "codebooks", "select_bit",
+      8 * plan.config.line_bytes * lines *
+          (counter_bits(memories(plan) - 1) + counter_bits(plan.config.line_bytes / 4 - 1)));
   check_lines(bench, plan, requests);
 }
 

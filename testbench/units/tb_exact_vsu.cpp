@@ -225,19 +225,6 @@ void run_plan(Case& test, const BenchConfig& bench_config, const ExactVsuPlan& p
   bench.check_accesses("finished sub-tiles", 32 * bench.counter("looked_up"), mask.news());
 }
 
-BenchConfig still_bench(const ExactVsuPlan& plan) {
-  BenchConfig config;
-  config.memory_bytes = memory_bytes(plan.job);
-  return config;
-}
-
-void directed(Case& test, const SceneShape& shape, std::uint32_t chunk,
-              std::uint32_t queue_entries) {
-  ExactVsuPlan plan = plan_of(random_scene(test.random, shape), chunk);
-  plan.config.queue_entries = plan.config.node_queue_entries = queue_entries;
-  run_plan(test, still_bench(plan), plan);
-}
-
 void random_case(Case& test) {
   std::mt19937_64& random = test.random;
   ExactVsuPlan plan = plan_of(random_scene(random, random_shape(random)),
@@ -266,67 +253,61 @@ int sc_main(int argc, char* argv[]) {
   using namespace sgs;
   using namespace sgs::tb;
   CaseRunner runner("tb_exact_vsu", "Voxel sorting unit in exact order, against the walk alone");
-  SceneShape shape;
-  shape.gaussians = 600;
-  runner.add_directed("several groups", [=](Case& test) { directed(test, shape, 8, 512); });
-  runner.add_directed("a queue of nine entries", [=](Case& test) { directed(test, shape, 1, 9); });
-  SceneShape empty = shape;
-  empty.gaussians = 0;
-  runner.add_directed("empty scene", [=](Case& test) { directed(test, empty, 16, 512); });
-  SceneShape one = shape;
-  one.gaussians = 1;
-  runner.add_directed("one Gaussian", [=](Case& test) { directed(test, one, 16, 512); });
-  SceneShape pixel = shape;
-  pixel.width_px = pixel.height_px = 1;
-  runner.add_directed("1x1 frame", [=](Case& test) { directed(test, pixel, 16, 512); });
-  SceneShape whole = shape;
-  whole.group = square_of(64);
-  runner.add_directed("group larger than the frame",
-                      [=](Case& test) { directed(test, whole, 16, 512); });
+  // A scene of 600 Gaussians but for `shape`, in chunks of so many, by a unit but for `change`.
+  const auto add = [&](const std::string& name, std::uint32_t chunk, auto shape, auto change) {
+    runner.add_directed(name, [=](Case& test) {
+      SceneShape own;
+      own.gaussians = 600;
+      shape(own);
+      ExactVsuPlan plan = plan_of(random_scene(test.random, own), chunk);
+      BenchConfig config = still_bench(memory_bytes(plan.job));
+      change(plan, config);
+      run_plan(test, config, plan);
+    });
+  };
+  const auto same = [](SceneShape&) {};
+  const auto gaussians = [](std::size_t count) {
+    return [=](SceneShape& shape) { shape.gaussians = count; };
+  };
+  const auto entries = [](std::uint32_t count) {
+    return [=](ExactVsuPlan& plan, BenchConfig&) {
+      plan.config.queue_entries = plan.config.node_queue_entries = count;
+    };
+  };
+  add("several groups", 8, same, entries(512));
+  add("a queue of nine entries", 1, same, entries(9));
+  add("empty scene", 16, gaussians(0), entries(512));
+  add("one Gaussian", 16, gaussians(1), entries(512));
+  const auto pixel = [](SceneShape& shape) { shape.width_px = shape.height_px = 1; };
+  add("1x1 frame", 16, pixel, entries(512));
+  const auto whole = [](SceneShape& shape) { shape.group = square_of(64); };
+  add("group larger than the frame", 16, whole, entries(512));
   for (const PixelSize& group : {PixelSize{64, 24}, PixelSize{64, 64}}) {
-    runner.add_directed(
-        fmt::format("left parts of groups of {} x {} are finished", group.width, group.height),
-        [=](Case& test) {
-          SceneShape wide = shape;
-          wide.group = group;
-          ExactVsuPlan plan = plan_of(random_scene(test.random, wide), 2);
-          plan.finished_columns = 6;
-          run_plan(test, still_bench(plan), plan);
-        });
+    add(
+        fmt::format("left parts of groups of {} x {} are finished", group.width, group.height), 2,
+        [=](SceneShape& shape) { shape.group = group; },
+        [](ExactVsuPlan& plan, BenchConfig&) { plan.finished_columns = 6; });
   }
-  runner.add_directed("groups finished before they begin", [=](Case& test) {
-    ExactVsuPlan plan = plan_of(random_scene(test.random, shape), 8);
-    plan.finished_before = true;
-    run_plan(test, still_bench(plan), plan);
-  });
+  add("groups finished before they begin", 8, same,
+      [](ExactVsuPlan& plan, BenchConfig&) { plan.finished_before = true; });
   // Entries put aside for a group that ends early must not come back in the next.
-  runner.add_directed("groups that finish while entries are put aside", [=](Case& test) {
-    SceneShape crowded = shape;
-    crowded.gaussians = 1000;
-    crowded.group = square_of(8);
-    ExactVsuPlan plan = plan_of(random_scene(test.random, crowded), 1);
-    plan.config.queue_entries = plan.config.node_queue_entries = kChunkNodeWidth + 1;
-    plan.saturate_one_in = 12;
-    plan.fifo_entries = 1;
-    run_plan(test, still_bench(plan), plan);
-  });
-  runner.add_directed("the next group's walk begins while this one's visits wait", [=](Case& test) {
-    SceneShape few = shape;
-    few.gaussians = 300;
-    ExactVsuPlan plan = plan_of(random_scene(test.random, few), 4);
-    plan.hfus_begin_at = 50'000;
-    run_plan(test, still_bench(plan), plan);
-  });
-  runner.add_directed("reads overlap", [=](Case& test) {
-    SceneShape many = shape;
-    many.gaussians = 1000;
-    ExactVsuPlan plan = plan_of(random_scene(test.random, many), 2);
+  const auto crowded = [](SceneShape& shape) {
+    shape.gaussians = 1000;
+    shape.group = square_of(8);
+  };
+  add("groups that finish while entries are put aside", 1, crowded,
+      [](ExactVsuPlan& plan, BenchConfig&) {
+        plan.config.queue_entries = plan.config.node_queue_entries = kChunkNodeWidth + 1;
+        plan.saturate_one_in = 12;
+        plan.fifo_entries = 1;
+      });
+  add("the next group's walk begins while this one's visits wait", 4, gaussians(300),
+      [](ExactVsuPlan& plan, BenchConfig&) { plan.hfus_begin_at = 50'000; });
+  add("reads overlap", 2, gaussians(1000), [](ExactVsuPlan& plan, BenchConfig& config) {
     plan.config.upper_nodes = 0;
     plan.config.nodes_in_flight = 4;
     plan.reads_overlap = true;
-    BenchConfig config = still_bench(plan);
     config.latency_cycles = 200;
-    run_plan(test, config, plan);
   });
   runner.set_random(random_case);
   return runner.run(argc, argv);

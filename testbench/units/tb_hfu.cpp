@@ -2,27 +2,12 @@
 // Checked against the coarse bound and make_splat on what the bytes in memory decode to; times of
 // the coarse filter alone are written out. All others: tests/modules/streaminggs/clocked.
 #include "algorithm/splat/gaussian.h"
-#include "algorithm/storage/build_memory_image.h"
+#include "algorithm/storage/encoded_cloud.h"
 #include "testbench/units/hfu_run.h"
 #include "testbench/units/job_memory.h"
 
 namespace sgs::tb {
 namespace {
-
-BenchConfig still_bench(const HfuPlan& plan, std::uint32_t latency_cycles = 20) {
-  BenchConfig config;
-  config.latency_cycles = latency_cycles;
-  config.memory_bytes = memory_bytes(plan.scene.job);
-  return config;
-}
-
-void directed(Case& test, const SceneShape& shape, const HfuConfig& config, std::size_t visits,
-              std::uint32_t most) {
-  HfuPlan plan = hfu_plan_of(random_scene(test.random, shape));
-  plan.config = resolved(config);
-  add_shares(test.random, plan, visits, most);
-  run_hfu(test, still_bench(plan), plan);
-}
 
 // n Gaussians behind the camera: none passes, so the mark is there after the time of the coarse
 // filter alone, written out here: FIFO 1, start of the read 1, memory, turns of the CFUs in the
@@ -43,7 +28,9 @@ void exact_coarse_time(Case& test, std::uint32_t n) {
   place(plan.scene.image.layout, 0, plan.scene.job);
   constexpr std::uint64_t kMarkCycles = 3;  // coarse filter, fetch, FFU: one each
   constexpr std::uint64_t kLatency = 37, kInterval = 14, kDepth = 12;  // ceil(55 / 4)
-  UnitBench bench(test, still_bench(plan, kLatency));
+  BenchConfig config = still_bench(memory_bytes(plan.scene.job));
+  config.latency_cycles = kLatency;
+  UnitBench bench(test, config);
   bench.load(0, plan.scene.image.bytes);
   FinishedGroups finished("finished", bench.clock(), plan.scene.job.groups.size(), 1);
   auto& input = bench.add_fifo<VisitShare>("shares", 4, 1);
@@ -96,7 +83,7 @@ void shared_fetch(Case& test, SecondHalfEncoding encoding, std::uint32_t slots) 
   add_shares(test.random, plan, 3, 150);
   const std::vector<PixelRect> groups = plan.scene.job.groups;
   plan.scene.job.parts = quadrants(groups);
-  UnitBench bench(test, still_bench(plan));
+  UnitBench bench(test, still_bench(memory_bytes(plan.scene.job)));
   Checks& checks = bench.checks();
   bench.load(0, plan.scene.image.bytes);
   auto& input = bench.add_fifo<VisitShare>("shares", 4, 1);
@@ -226,94 +213,83 @@ int sc_main(int argc, char* argv[]) {
   using namespace sgs;
   using namespace sgs::tb;
   CaseRunner runner("tb_hfu", "Hierarchical filtering unit alone, against the filters' functions");
-  const SceneShape shape;
-  runner.add_directed("end-of-group marks only",
-                      [=](Case& test) { directed(test, shape, {}, 0, 0); });
-  runner.add_directed("empty visits", [=](Case& test) { directed(test, shape, {}, 3, 0); });
-  runner.add_directed("one Gaussian", [=](Case& test) { directed(test, shape, {}, 3, 1); });
-  runner.add_directed("shares of several slices", [=](Case& test) {
-    SceneShape large = shape;
-    large.gaussians = 2000;
-    directed(test, large, {}, 2, 2000);
-  });
+  // `visits` shares of each group, of at most so many slots.
+  const auto add = [&](const std::string& name, std::size_t visits, std::uint32_t most, auto shape,
+                       auto change) {
+    runner.add_directed(name, [=](Case& test) {
+      SceneShape own;
+      shape(own);
+      HfuPlan plan = hfu_plan_of(random_scene(test.random, own));
+      change(plan);
+      add_shares(test.random, plan, visits, most);
+      run_hfu(test, still_bench(memory_bytes(plan.scene.job)), plan);
+    });
+  };
+  const auto same = [](SceneShape&) {};
+  const auto usual = [](HfuPlan&) {};
+  const auto encoded = [](SecondHalfEncoding encoding, int degree) {
+    return [=](SceneShape& shape) {
+      shape.encoding = encoding;
+      shape.sh_degree = degree;
+    };
+  };
+  add("end-of-group marks only", 0, 0, same, usual);
+  add("empty visits", 3, 0, same, usual);
+  add("one Gaussian", 3, 1, same, usual);
+  const auto large = [](SceneShape& shape) { shape.gaussians = 2000; };
+  add("shares of several slices", 2, 2000, large, usual);
   for (int degree = 0; degree <= 3; ++degree) {
     for (const auto& [name, order] :
          {std::pair{"voxels", StorageOrder::kVoxels}, {"chunks", StorageOrder::kChunks}}) {
-      runner.add_directed(fmt::format("by {}, SH degree {}", name, degree), [=](Case& test) {
-        SceneShape of_degree = shape;
-        of_degree.sh_degree = degree;
-        of_degree.order = order;
-        directed(test, of_degree, {}, 2, 100);
-      });
+      add(
+          fmt::format("by {}, SH degree {}", name, degree), 2, 100,
+          [degree, by = order](SceneShape& shape) {
+            shape.sh_degree = degree;
+            shape.order = by;
+          },
+          usual);
     }
   }
   for (const auto& [name, encoding] : {std::pair{"half", SecondHalfEncoding::kHalf},
                                        {"vq", SecondHalfEncoding::kVq},
                                        {"vq_packed", SecondHalfEncoding::kVqPacked}}) {
     for (const int degree : {0, 3}) {
-      runner.add_directed(fmt::format("{}, SH degree {}", name, degree), [=](Case& test) {
-        SceneShape encoded = shape;
-        encoded.encoding = encoding;
-        encoded.sh_degree = degree;
-        directed(test, encoded, {}, 2, 100);
-      });
+      add(fmt::format("{}, SH degree {}", name, degree), 2, 100, encoded(encoding, degree), usual);
     }
   }
-  runner.add_directed("decoding binds: an FFU of one cycle, lines of 4 B", [=](Case& test) {
-    SceneShape encoded = shape;
-    encoded.encoding = SecondHalfEncoding::kVqPacked;
-    encoded.sh_degree = 3;
-    HfuPlan plan = hfu_plan_of(random_scene(test.random, encoded));
-    plan.config.ffu_lanes = 10000;
-    plan.codebook.line_bytes = 4;
-    add_shares(test.random, plan, 2, 200);
-    run_hfu(test, still_bench(plan), plan);
+  add("decoding binds: an FFU of one cycle, lines of 4 B", 2, 200,
+      encoded(SecondHalfEncoding::kVqPacked, 3), [](HfuPlan& plan) {
+        plan.config.ffu_lanes = 10000;
+        plan.codebook.line_bytes = 4;
+      });
+  add("no coarse filter", 2, 100, same, [](HfuPlan& plan) { plan.config.coarse_filter = false; });
+  add("one slot for second halves", 2, 100, same, [](HfuPlan& plan) {
+    plan.config.second_half_slots = 1;
+    plan.config.candidate_fifo_entries = 1;
   });
-  runner.add_directed("no coarse filter", [=](Case& test) {
-    HfuConfig config;
-    config.coarse_filter = false;
-    directed(test, shape, config, 2, 100);
-  });
-  runner.add_directed("one slot for second halves", [=](Case& test) {
-    HfuConfig config;
-    config.second_half_slots = 1;
-    config.candidate_fifo_entries = 1;
-    directed(test, shape, config, 2, 100);
-  });
-  runner.add_directed("1x1 frame", [=](Case& test) {
-    SceneShape pixel = shape;
-    pixel.width_px = pixel.height_px = 1;
-    directed(test, pixel, {}, 2, 100);
-  });
-  runner.add_directed("groups finished before they begin", [=](Case& test) {
-    HfuPlan plan = hfu_plan_of(random_scene(test.random, shape));
-    plan.finish_cycles.assign(plan.scene.job.groups.size(), 0);
-    add_shares(test.random, plan, 4, 200);
-    run_hfu(test, still_bench(plan), plan);
-  });
-  runner.add_directed("groups that are finished at once", [=](Case& test) {
-    HfuPlan plan = hfu_plan_of(random_scene(test.random, shape));
-    plan.saturate_one_in = 1;
-    add_shares(test.random, plan, 4, 200);
-    run_hfu(test, still_bench(plan), plan);
-  });
+  const auto pixel = [](SceneShape& shape) { shape.width_px = shape.height_px = 1; };
+  add("1x1 frame", 2, 100, pixel, usual);
+  const auto finished_in = [](std::uint64_t cycle) {
+    return [=](HfuPlan& plan) { plan.finish_cycles.assign(plan.scene.job.groups.size(), cycle); };
+  };
+  add("groups finished before they begin", 4, 200, same, finished_in(0));
+  add("groups that are finished at once", 4, 200, same,
+      [](HfuPlan& plan) { plan.saturate_one_in = 1; });
   for (const std::uint64_t cycle : {0U, 1U, 30U, 60U, 100U, 200U, 400U, 1000U}) {
-    runner.add_directed(fmt::format("groups that are finished in cycle {}", cycle),
-                        [=](Case& test) {
-                          SceneShape encoded = shape;
-                          encoded.encoding = SecondHalfEncoding::kVq;
-                          HfuPlan plan = hfu_plan_of(random_scene(test.random, encoded));
-                          plan.feedback_cycles = 3;
-                          plan.finish_cycles.assign(plan.scene.job.groups.size(), cycle);
-                          add_shares(test.random, plan, 2, 200);
-                          run_hfu(test, still_bench(plan), plan);
-                        });
+    add(
+        fmt::format("groups that are finished in cycle {}", cycle), 2, 200,
+        [](SceneShape& shape) { shape.encoding = SecondHalfEncoding::kVq; },
+        [=](HfuPlan& plan) {
+          plan.feedback_cycles = 3;
+          finished_in(cycle)(plan);
+        });
   }
   for (const std::uint32_t slots : {1U, 6U, 40U}) {
-    runner.add_directed(fmt::format("four HFUs behind one fetch, {} slots", slots),
-                        [=](Case& test) { shared_fetch(test, SecondHalfEncoding::kRaw, slots); });
-    runner.add_directed(fmt::format("four HFUs behind one fetch, {} slots, vq", slots),
-                        [=](Case& test) { shared_fetch(test, SecondHalfEncoding::kVq, slots); });
+    for (const auto& [name, encoding] :
+         {std::pair{"", SecondHalfEncoding::kRaw}, {", vq", SecondHalfEncoding::kVq}}) {
+      runner.add_directed(fmt::format("four HFUs behind one fetch, {} slots{}", slots, name),
+                          [slots, how = encoding](Case& test) { shared_fetch(test, how, slots); });
+    }
   }
   for (const std::uint32_t n : {1U, 4U, 5U, 100U, 128U}) {
     runner.add_directed(fmt::format("time of the coarse filter for {}", n),

@@ -192,24 +192,21 @@ int sc_main(int argc, char* argv[]) {
     run.bench.checks().that(c.runs_spilled > 3, "runs were not merged");
     run.bench.checks().that(c.keys_spilled > c.keys / 2, "too few keys were spilled");
   };
-  runner.add_directed("keys that all fit", [](Case& test) {
-    one_group(test, 100, 100, false, [](MergeRun& run) {
-      run.bench.check_counter("runs_spilled", 0);
-      run.bench.check_counter("ties", 0);
-    });
-  });
-  runner.add_directed("one key more than fits",
-                      [=](Case& test) { one_group(test, 101, 100, false, spills); });
-  runner.add_directed("many runs, merged in DRAM",
-                      [=](Case& test) { one_group(test, 700, 20, false, merges_runs); });
-  runner.add_directed("capacity of two keys",
-                      [=](Case& test) { one_group(test, 60, 2, false, merges_runs); });
-  runner.add_directed("all keys at one depth",
-                      [](Case& test) { one_group(test, 300, 300, true, [](MergeRun&) {}); });
-  runner.add_directed("all keys at one depth, spilled",
-                      [=](Case& test) { one_group(test, 300, 20, true, spills); });
-  runner.add_directed("all keys at one depth, capacity of two keys",
-                      [=](Case& test) { one_group(test, 40, 2, true, spills); });
+  const auto fits = [](MergeRun& run) {
+    run.bench.check_counter("runs_spilled", 0);
+    run.bench.check_counter("ties", 0);
+  };
+  const auto add = [&](const char* name, std::uint32_t n, std::uint32_t entries, bool tied,
+                       const std::function<void(MergeRun&)>& also) {
+    runner.add_directed(name, [=](Case& test) { one_group(test, n, entries, tied, also); });
+  };
+  add("keys that all fit", 100, 100, false, fits);
+  add("one key more than fits", 101, 100, false, spills);
+  add("many runs, merged in DRAM", 700, 20, false, merges_runs);
+  add("capacity of two keys", 60, 2, false, merges_runs);
+  add("all keys at one depth", 300, 300, true, [](MergeRun&) {});
+  add("all keys at one depth, spilled", 300, 20, true, spills);
+  add("all keys at one depth, capacity of two keys", 40, 2, true, spills);
   runner.add_directed("groups finished while keys wait on chip and in DRAM", [](Case& test) {
     MergePlan plan;
     plan.slots = 300;

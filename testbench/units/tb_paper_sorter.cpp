@@ -7,7 +7,7 @@
 #include "modules/streaminggs/sorting/sorting_cost.h"
 #include "testbench/units/case_runner.h"
 #include "testbench/units/job_memory.h"
-#include "testbench/units/random_splats.h"
+#include "testbench/units/random_scene.h"
 #include "testbench/units/unit_bench.h"
 
 namespace sgs::tb {
@@ -223,12 +223,6 @@ Plan small_plan(int width_px = 64, int height_px = 48, int side_px = 32) {
   return plan;
 }
 
-BenchConfig still_bench(const Plan& plan) {
-  BenchConfig config;
-  config.memory_bytes = memory_bytes(plan.job);
-  return config;
-}
-
 Visit make_visit(std::mt19937_64& random, const Plan& plan, std::uint32_t group, std::size_t n) {
   Visit visit;
   visit.group = group;
@@ -278,7 +272,7 @@ void random_case(Case& test) {
 void exact_time(Case& test, std::size_t n) {
   Plan plan = small_plan();
   const Visit visit = make_visit(test.random, plan, 0, n);
-  UnitBench bench(test, still_bench(plan));
+  UnitBench bench(test, still_bench(memory_bytes(plan.job)));
   FinishedGroups finished("finished", bench.clock(), plan.job.groups.size(), 1);
   auto& input = bench.add_fifo<SplatToken>("from_hfu0", static_cast<std::uint32_t>(n + 1), 1);
   auto& output = bench.add_fifo<SplatToken>("sorted", 64, 1);
@@ -321,7 +315,7 @@ void one_list(Case& test, std::uint32_t group, std::size_t n, const PaperSorterC
   }
   plan.visits.push_back(make_visit(test.random, plan, group, 0));
   plan.visits.back().end = Mark::kEndOfGroup;
-  run_plan(test, still_bench(plan), plan);
+  run_plan(test, still_bench(memory_bytes(plan.job)), plan);
 }
 
 }  // namespace
@@ -334,46 +328,50 @@ int sc_main(int argc, char* argv[]) {
                     "Sorting unit of paper order alone, against std::sort by depth and index");
   PaperSorterConfig small;
   small.buffer_entries = 16;
-  runner.add_directed("marks only", [](Case& test) {
-    Plan plan = small_plan();
-    plan.hfus = 4;
+  const auto add = [&](const char* name, std::uint32_t group, std::size_t n,
+                       const PaperSorterConfig& config, float depth_step) {
+    runner.add_directed(name, [=](Case& test) { one_list(test, group, n, config, depth_step); });
+  };
+  // With visits of its own, the last of which ends the last of their groups.
+  const auto plan_with = [&](const char* name, const Plan& plan, auto fill) {
+    runner.add_directed(name, [=](Case& test) {
+      Plan own = plan;
+      fill(own, test.random);
+      own.visits.back().end = Mark::kEndOfGroup;
+      run_plan(test, still_bench(memory_bytes(own.job)), own);
+    });
+  };
+  Plan of_four = small_plan();
+  of_four.hfus = 4;
+  plan_with("marks only", of_four, [](Plan& plan, std::mt19937_64& random) {
     for (std::uint32_t group = 0; group < plan.job.groups.size(); ++group) {
-      plan.visits.push_back(make_visit(test.random, plan, group, 0));
+      plan.visits.push_back(make_visit(random, plan, group, 0));
       plan.visits.back().end = Mark::kEndOfGroup;
     }
-    run_plan(test, still_bench(plan), plan);
   });
-  runner.add_directed("one splat", [](Case& test) { one_list(test, 0, 1, {}, 1); });
-  const std::size_t full = PaperSorterConfig{}.buffer_entries;
-  runner.add_directed("a full buffer", [=](Case& test) { one_list(test, 0, full, {}, 1); });
+  const PaperSorterConfig usual;
+  const std::size_t full = usual.buffer_entries;
+  add("one splat", 0, 1, usual, 1);
+  add("a full buffer", 0, full, usual, 1);
   // The second run is read back as soon as it has been written.
-  runner.add_directed("one more than the buffer",
-                      [=](Case& test) { one_list(test, 0, full + 1, {}, 1); });
-  runner.add_directed("equal depths", [](Case& test) { one_list(test, 1, 50, {}, 0); });
-  runner.add_directed("equal depths, spilled",
-                      [=](Case& test) { one_list(test, 1, 200, small, 0); });
+  add("one more than the buffer", 0, full + 1, usual, 1);
+  add("equal depths", 1, 50, usual, 0);
+  add("equal depths, spilled", 1, 200, small, 0);
   // 16 entries, blocks of 4: two runs at a time; 63 runs take six passes.
-  runner.add_directed("several merge passes",
-                      [=](Case& test) { one_list(test, 0, 1000, small, 1); });
-  runner.add_directed("group cut by the frame's edge",
-                      [=](Case& test) { one_list(test, 3, 300, small, 1); });
-  runner.add_directed("1x1 frame", [=](Case& test) {
-    Plan plan = small_plan(1, 1, 64);
-    plan.config = small;
-    plan.visits.push_back(make_visit(test.random, plan, 0, 100));
-    plan.visits.back().end = Mark::kEndOfGroup;
-    run_plan(test, still_bench(plan), plan);
+  add("several merge passes", 0, 1000, small, 1);
+  add("group cut by the frame's edge", 3, 300, small, 1);
+  Plan pixel = small_plan(1, 1, 64), several = small_plan();
+  pixel.config = several.config = small;
+  plan_with("1x1 frame", pixel, [](Plan& plan, std::mt19937_64& random) {
+    plan.visits.push_back(make_visit(random, plan, 0, 100));
   });
-  runner.add_directed("group finished while a list is merged", [=](Case& test) {
-    Plan plan = small_plan();
-    plan.config = small;
-    for (int k = 0; k < 3; ++k) {
-      plan.visits.push_back(make_visit(test.random, plan, 0, 500));
-      plan.visits.back().finishes_group = true;
-    }
-    plan.visits.back().end = Mark::kEndOfGroup;
-    run_plan(test, still_bench(plan), plan);
-  });
+  plan_with("group finished while a list is merged", several,
+            [](Plan& plan, std::mt19937_64& random) {
+              for (int k = 0; k < 3; ++k) {
+                plan.visits.push_back(make_visit(random, plan, 0, 500));
+                plan.visits.back().finishes_group = true;
+              }
+            });
   for (const std::size_t n : {0, 1, 2, 16, 17, 32, 33, 64}) {
     runner.add_directed(fmt::format("time of {} splats", n),
                         [n](Case& test) { exact_time(test, n); });

@@ -305,17 +305,6 @@ void run_plan(Case& test, const BenchConfig& bench_config, const PaperVsuPlan& p
   }
 }
 
-BenchConfig still_bench(const PaperVsuPlan& plan) {
-  BenchConfig config;
-  config.memory_bytes = memory_bytes(plan.scene.job);
-  return config;
-}
-
-void directed(Case& test, const SceneShape& shape) {
-  const PaperVsuPlan plan = paper_vsu_plan_of(random_scene(test.random, shape));
-  run_plan(test, still_bench(plan), plan);
-}
-
 void sample_rays(std::mt19937_64& random, PaperVsuPlan& plan) {
   PaperVsuConfig& config = plan.config;
   config.samples_per_cycle = 1 + static_cast<std::uint32_t>(random() % 5);
@@ -372,65 +361,57 @@ int sc_main(int argc, char* argv[]) {
   using namespace sgs::tb;
   CaseRunner runner("tb_paper_vsu",
                     "Voxel sorting unit in paper order, against the order of each group's rays");
-  SceneShape shape;
-  runner.add_directed("several groups", [=](Case& test) { directed(test, shape); });
-  SceneShape empty = shape;
-  empty.gaussians = 0;
-  runner.add_directed("empty scene", [=](Case& test) { directed(test, empty); });
-  SceneShape one = shape;
-  one.gaussians = 1;
-  runner.add_directed("one Gaussian", [=](Case& test) { directed(test, one); });
-  SceneShape crowded = shape;
-  crowded.voxel_size = 100;
-  runner.add_directed("voxels that hold an eighth of all",
-                      [=](Case& test) { directed(test, crowded); });
-  SceneShape many = crowded;
-  many.gaussians = 5000;
-  for (const std::uint32_t most : {1U, 64U, 100U, 1000U}) {
-    runner.add_directed(fmt::format("voxels cut into pieces of {}", most), [=](Case& test) {
-      PaperVsuPlan plan = paper_vsu_plan_of(random_scene(test.random, many));
-      plan.config.visit_gaussians = most;
-      run_plan(test, still_bench(plan), plan);
+  const auto add = [&](const std::string& name, auto shape, auto change) {
+    runner.add_directed(name, [=](Case& test) {
+      SceneShape own;
+      shape(own);
+      PaperVsuPlan plan = paper_vsu_plan_of(random_scene(test.random, own));
+      change(plan);
+      run_plan(test, still_bench(memory_bytes(plan.scene.job)), plan);
     });
+  };
+  const auto same = [](SceneShape&) {};
+  const auto usual = [](PaperVsuPlan&) {};
+  add("several groups", same, usual);
+  add(
+      "empty scene", [](SceneShape& shape) { shape.gaussians = 0; }, usual);
+  add(
+      "one Gaussian", [](SceneShape& shape) { shape.gaussians = 1; }, usual);
+  const auto crowded = [](SceneShape& shape) { shape.voxel_size = 100; };
+  add("voxels that hold an eighth of all", crowded, usual);
+  const auto many = [=](SceneShape& shape) {
+    crowded(shape);
+    shape.gaussians = 5000;
+  };
+  for (const std::uint32_t most : {1U, 64U, 100U, 1000U}) {
+    add(fmt::format("voxels cut into pieces of {}", most), many,
+        [=](PaperVsuPlan& plan) { plan.config.visit_gaussians = most; });
   }
-  SceneShape fine = shape;
-  fine.voxel_size = 0.001F;
-  runner.add_directed("a voxel for each Gaussian", [=](Case& test) { directed(test, fine); });
+  const auto fine = [](SceneShape& shape) { shape.voxel_size = 0.001F; };
+  add("a voxel for each Gaussian", fine, usual);
   for (const RenamingForm form : {RenamingForm::kHashed, RenamingForm::kDense}) {
     const char* name = form == RenamingForm::kDense ? "dense" : "hashed";
-    runner.add_directed(fmt::format("sampled rays, {} renaming table", name), [=](Case& test) {
-      PaperVsuPlan plan = paper_vsu_plan_of(random_scene(test.random, shape));
+    add(fmt::format("sampled rays, {} renaming table", name), same, [=](PaperVsuPlan& plan) {
       plan.config.samples_per_cycle = 2;
       plan.config.sample_step_voxels = 0.5;
       plan.config.renaming = form;
       SampledRays::place_tables(plan.config, plan.scene.grid, plan.scene.job);
-      run_plan(test, still_bench(plan), plan);
     });
   }
-  SceneShape pixel = shape;
-  pixel.width_px = pixel.height_px = 1;
-  runner.add_directed("1x1 frame", [=](Case& test) { directed(test, pixel); });
-  SceneShape whole = shape;
-  whole.group = square_of(64);
-  runner.add_directed("group larger than the frame", [=](Case& test) { directed(test, whole); });
-  runner.add_directed("a group that is finished at once", [=](Case& test) {
-    PaperVsuPlan plan = paper_vsu_plan_of(random_scene(test.random, whole));
+  add(
+      "1x1 frame", [](SceneShape& shape) { shape.width_px = shape.height_px = 1; }, usual);
+  const auto whole = [](SceneShape& shape) { shape.group = square_of(64); };
+  add("group larger than the frame", whole, usual);
+  add("a group that is finished at once", whole, [](PaperVsuPlan& plan) {
     plan.saturate_one_in = 1;
     plan.fifo_entries = 1;
-    run_plan(test, still_bench(plan), plan);
   });
-  runner.add_directed("groups finished before they begin", [=](Case& test) {
-    PaperVsuPlan plan = paper_vsu_plan_of(random_scene(test.random, shape));
-    plan.finished_before = true;
-    run_plan(test, still_bench(plan), plan);
-  });
+  add("groups finished before they begin", same,
+      [](PaperVsuPlan& plan) { plan.finished_before = true; });
   // 8 bytes are a voxel a pass.
   for (const std::uint32_t bytes : {8U, 12U, 20U, 64U, 300U}) {
-    runner.add_directed(fmt::format("ordering table of {} bytes", bytes), [=](Case& test) {
-      PaperVsuPlan plan = paper_vsu_plan_of(random_scene(test.random, shape));
-      plan.config.table_bytes = bytes;
-      run_plan(test, still_bench(plan), plan);
-    });
+    add(fmt::format("ordering table of {} bytes", bytes), same,
+        [=](PaperVsuPlan& plan) { plan.config.table_bytes = bytes; });
   }
   runner.set_random(random_case);
   return runner.run(argc, argv);

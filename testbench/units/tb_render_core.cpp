@@ -8,7 +8,7 @@
 #include "modules/gscore/gscore_datapaths.h"
 #include "modules/gscore/rendering/render_core.h"
 #include "testbench/units/gscore_bench.h"
-#include "testbench/units/random_splats.h"
+#include "testbench/units/random_scene.h"
 
 namespace sgs::tb {
 namespace {
@@ -226,7 +226,7 @@ int sc_main(int argc, char* argv[]) {
       GscoreConfig config;
       config.cores = 1;
       config.lists.pool_bytes = 1 << 20;
-      run_plan(test, still_gscore(),
+      run_plan(test, still_bench(kGscoreMemoryBytes),
                make_plan(config, test.random, width, height, entries, opacity, whole_tiles),
                whole_tiles && opacity < 0.1F);
     });

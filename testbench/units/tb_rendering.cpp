@@ -1,7 +1,7 @@
 // Rendering unit alone: sorted splats in, a frame buffer in memory out. Checked against GroupState;
 // times: tests/modules/streaminggs/clocked.
 #include "testbench/units/job_memory.h"
-#include "testbench/units/random_splats.h"
+#include "testbench/units/random_scene.h"
 #include "testbench/units/rendering_run.h"
 
 namespace sgs::tb {
@@ -29,12 +29,6 @@ std::vector<Splat> random_visit(std::mt19937_64& random, const RenderingPlan& pl
                                  static_cast<std::uint32_t>(i), opacity));
   }
   return visit;
-}
-
-BenchConfig still_bench(const RenderingPlan& plan) {
-  BenchConfig config;
-  config.memory_bytes = memory_bytes(plan.job);
-  return config;
 }
 
 // A splat that hides all of a group: flat, opaque, as wide as the frame.
@@ -86,13 +80,6 @@ void random_case(Case& test) {
   run_plan(test, bench, plan);
 }
 
-void directed(Case& test, RenderingPlan plan, std::size_t splats) {
-  for (std::size_t g = 0; g < plan.groups.size(); ++g) {
-    plan.groups[g].push_back(random_visit(test.random, plan, g, splats, 1.0F));
-  }
-  run_plan(test, still_bench(plan), plan);
-}
-
 }  // namespace
 }  // namespace sgs::tb
 
@@ -100,54 +87,55 @@ int sc_main(int argc, char* argv[]) {
   using namespace sgs;
   using namespace sgs::tb;
   CaseRunner runner("tb_rendering", "Rendering unit alone, against the blending of one group");
-  const auto format = FrameFormat::kRgb32f;
-  runner.add_directed("end-of-group marks only", [](Case& test) {
-    const RenderingPlan plan = make_plan(64, 48, square_of(16), format);
-    run_plan(test, still_bench(plan), plan);
+  // A frame in groups of a square, with what `fill` puts into the plan.
+  const auto add = [&](const char* name, int width_px, int height_px, int side_px, auto fill) {
+    runner.add_directed(name, [=](Case& test) {
+      RenderingPlan plan = make_plan(width_px, height_px, square_of(side_px), FrameFormat::kRgb32f);
+      fill(plan, test.random);
+      run_plan(test, still_bench(memory_bytes(plan.job)), plan);
+    });
+  };
+  using Random = std::mt19937_64;
+  const auto splats = [](std::size_t count) {
+    return [=](RenderingPlan& plan, Random& random) {
+      for (std::size_t g = 0; g < plan.groups.size(); ++g) {
+        plan.groups[g].push_back(random_visit(random, plan, g, count, 1.0F));
+      }
+    };
+  };
+  add("end-of-group marks only", 64, 48, 16, [](RenderingPlan&, Random&) {});
+  add("empty visits", 64, 48, 32, splats(0));
+  add("one splat", 16, 16, 16, splats(1));
+  add("1x1 frame", 1, 1, 64, splats(5));
+  add("groups cut by the frame's edge", 70, 33, 32, splats(20));
+  add("8-bit pixels", 70, 33, 32, [=](RenderingPlan& plan, Random& random) {
+    plan.job = frame_job(70, 33, plan.group, FrameFormat::kRgb8, 0);
+    splats(20)(plan, random);
   });
-  runner.add_directed("empty visits", [](Case& test) {
-    directed(test, make_plan(64, 48, square_of(32), format), 0);
-  });
-  runner.add_directed(
-      "one splat", [](Case& test) { directed(test, make_plan(16, 16, square_of(16), format), 1); });
-  runner.add_directed(
-      "1x1 frame", [](Case& test) { directed(test, make_plan(1, 1, square_of(64), format), 5); });
-  runner.add_directed("groups cut by the frame's edge", [](Case& test) {
-    directed(test, make_plan(70, 33, square_of(32), format), 20);
-  });
-  runner.add_directed("8-bit pixels", [](Case& test) {
-    directed(test, make_plan(70, 33, square_of(32), FrameFormat::kRgb8), 20);
-  });
-  runner.add_directed("two pixel buffers", [](Case& test) {
-    RenderingPlan plan = make_plan(128, 64, square_of(32), format);
+  add("two pixel buffers", 128, 64, 32, [=](RenderingPlan& plan, Random& random) {
     plan.config.pixel_buffers = 2;
-    directed(test, plan, 50);
+    splats(50)(plan, random);
   });
-  runner.add_directed("every token from another FIFO", [](Case& test) {
-    RenderingPlan plan = make_plan(64, 48, square_of(32), format);
+  add("every token from another FIFO", 64, 48, 32, [=](RenderingPlan& plan, Random& random) {
     plan.arrival = Arrival::kByToken;
     plan.inputs = 4;
-    directed(test, plan, 30);
+    splats(30)(plan, random);
   });
-  runner.add_directed("saturated group", [](Case& test) {
-    RenderingPlan plan = make_plan(64, 32, square_of(32), format);
+  add("saturated group", 64, 32, 32, [](RenderingPlan& plan, Random& random) {
     // T falls to 0.01 and 0.0001; the next would bring it below: three splats finish every pixel.
     plan.groups[0].push_back(std::vector<Splat>(10, curtain(plan)));
-    plan.groups[0].push_back(random_visit(test.random, plan, 0, 10, 1.0F));
-    plan.groups[1].push_back(random_visit(test.random, plan, 1, 10, 0.5F));
-    run_plan(test, still_bench(plan), plan);
+    plan.groups[0].push_back(random_visit(random, plan, 0, 10, 1.0F));
+    plan.groups[1].push_back(random_visit(random, plan, 1, 10, 0.5F));
   });
-  runner.add_directed("splats behind finished sub-tiles of an unfinished group", [](Case& test) {
-    RenderingPlan plan = make_plan(32, 32, square_of(32), format);
-    Splat left = curtain(plan);
-    left.footprint.x1 = 4;
-    plan.groups[0].push_back(std::vector<Splat>(10, left));  // the last take a cycle for nothing
-    run_plan(test, still_bench(plan), plan);
-  });
-  runner.add_directed("splats too faint to be blended", [](Case& test) {
-    RenderingPlan plan = make_plan(32, 32, square_of(32), format);
-    plan.groups[0].push_back(random_visit(test.random, plan, 0, 10, 0.001F));
-    run_plan(test, still_bench(plan), plan);
+  add("splats behind finished sub-tiles of an unfinished group", 32, 32, 32,
+      [](RenderingPlan& plan, Random&) {
+        Splat left = curtain(plan);
+        left.footprint.x1 = 4;
+        // The last take a cycle for nothing.
+        plan.groups[0].push_back(std::vector<Splat>(10, left));
+      });
+  add("splats too faint to be blended", 32, 32, 32, [](RenderingPlan& plan, Random& random) {
+    plan.groups[0].push_back(random_visit(random, plan, 0, 10, 0.001F));
   });
   runner.set_random(random_case);
   return runner.run(argc, argv);

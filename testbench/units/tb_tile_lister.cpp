@@ -8,7 +8,7 @@
 #include "modules/gscore/gscore_datapaths.h"
 #include "modules/gscore/lists/tile_lister.h"
 #include "testbench/units/gscore_bench.h"
-#include "testbench/units/uniform.h"
+#include "testbench/units/random_scene.h"
 
 namespace sgs::tb {
 namespace {
@@ -375,7 +375,8 @@ int sc_main(int argc, char* argv[]) {
       config.lists.tiles = tiles;
       config.lists.lines = lines;
       config.lists.pool_bytes = pool_bytes;
-      run_plan(test, still_gscore(), make_plan(config, test.random, gaussians, tiles_each));
+      run_plan(test, still_bench(kGscoreMemoryBytes),
+               make_plan(config, test.random, gaussians, tiles_each));
     });
   };
   directed("no Gaussian", 0, 1, 64, 64, 1 << 20);

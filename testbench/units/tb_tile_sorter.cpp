@@ -314,7 +314,7 @@ int sc_main(int argc, char* argv[]) {
       config.sorting.list_entries = list_entries;
       Plan plan = plan_of(config, test.random, lists, keys);
       plan.finish_after = finish_after;
-      run_plan(test, still_gscore(), plan);
+      run_plan(test, still_bench(kGscoreMemoryBytes), plan);
     });
   };
   directed("empty lists", {0, 0, 0}, 100, 1024);

@@ -31,6 +31,12 @@ class UnitBench::Stimulus : public sc_core::sc_module {
   bool returned_ = false;
 };
 
+BenchConfig still_bench(std::size_t memory_bytes) {
+  BenchConfig config;
+  config.memory_bytes = memory_bytes;
+  return config;
+}
+
 BenchConfig random_bench(std::mt19937_64& random, std::size_t memory_bytes) {
   BenchConfig config;
   config.memory = random() % 2 == 0 ? Memory::kFixedLatency : Memory::kDram;

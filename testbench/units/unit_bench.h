@@ -41,6 +41,9 @@ struct BenchConfig {
   std::uint32_t longest_stall_cycles = 20;
 };
 
+// Without stalls, before a memory of fixed latency.
+BenchConfig still_bench(std::size_t memory_bytes);
+
 // Memory, its latency and the stalls at random.
 BenchConfig random_bench(std::mt19937_64& random, std::size_t memory_bytes);
 

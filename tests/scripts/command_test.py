@@ -327,7 +327,7 @@ class WithTheCommand(InFolder):
             (
                 ERROR_AGAINST_TIME,
                 ("--diagrams", "renderers", "--renderers", str(RENDERERS), "--threads", "0"),
-                "--threads: got '0', expected a number from 1 to 999",
+                "--threads: got '0', expected a whole number from 1 to 999",
             ),
             (
                 ERROR_AGAINST_TIME,

@@ -35,7 +35,7 @@ OTHER_MEANINGS: dict[tuple[str, float], str] = {
     ("testbench/builtin/outdoor_scene.cpp", 2.1): "a camera's distance",
     ("testbench/builtin/outdoor_scene.cpp", 9.5): "a camera's place",
     ("testbench/builtin/plants.cpp", 8.5): "a meadow's radius",
-    ("testbench/builtin/pond.cpp", 1.15): "a pond's rim over its radius",
+    ("testbench/builtin/terrain.cpp", 1.15): "a pond's rim over its radius",
     ("testbench/builtin/terrain.cpp", 2.3): "scale of a terrain's noise",
     ("testbench/builtin/terrain.cpp", 190): "height of hills",
     ("testbench/builtin/toy_rocket.cpp", 0.87): "blue in white",

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "testbench/process/in_child.h"
+#include "testbench/process/child_process.h"
 #include "tests/tlm/fifo_reader.h"
 
 namespace sgs {

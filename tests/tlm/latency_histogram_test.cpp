@@ -1,8 +1,8 @@
 // Means and percentiles by hand: exact below 1024 cycles, then low by less than a bin.
-#include "modules/dram/latency_histogram.h"
-
 #include <catch2/catch.hpp>
 #include <utility>
+
+#include "modules/dram/dram_stats.h"
 
 namespace sgs::test {
 namespace {

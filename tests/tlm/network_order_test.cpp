@@ -146,7 +146,7 @@ TEST_CASE("network: the order in which units are made shows in no time") {
     INFO("got " << (differs.second == log.end() ? "no more" : *differs.second));
     CHECK(log == first);
     CHECK(networks[order]->dram.stats().bus_bytes() == networks[0]->dram.stats().bus_bytes());
-    CHECK(networks[order]->dram.row_hits() == networks[0]->dram.row_hits());
+    CHECK(networks[order]->dram.stats().row_hit_rate() == networks[0]->dram.stats().row_hit_rate());
   }
 }
 

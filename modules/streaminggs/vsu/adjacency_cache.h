@@ -11,7 +11,7 @@
 #include <systemc>
 #include <vector>
 
-#include "algorithm/memory/regions.h"
+#include "algorithm/memory/scene_layout.h"
 #include "algorithm/order/ordering_table.h"
 #include "modules/streaminggs/vsu/paper_vsu_config.h"
 #include "tlm/data_sheet.h"

@@ -7,7 +7,7 @@
 #include <systemc>
 
 #include "algorithm/order/walk_queue.h"
-#include "algorithm/voxel/chunk_node.h"
+#include "algorithm/voxel/chunk_tree.h"
 #include "modules/datapath/work_rates.h"
 #include "tlm/datapath.h"
 #include "tlm/timed_fifo.h"

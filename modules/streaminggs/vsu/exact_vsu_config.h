@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "algorithm/order/chunk_walk.h"
-#include "algorithm/voxel/chunk_node.h"
+#include "algorithm/voxel/chunk_tree.h"
 #include "modules/config/config_visitor.h"
 #include "modules/streaminggs/heap_ledger.h"
 

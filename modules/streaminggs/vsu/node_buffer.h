@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "algorithm/memory/regions.h"
+#include "algorithm/memory/scene_layout.h"
 #include "algorithm/order/walk_queue.h"
-#include "algorithm/voxel/chunk_node.h"
+#include "algorithm/voxel/chunk_tree.h"
 #include "tlm/memory_access.h"
 
 namespace sgs {

@@ -5,7 +5,7 @@
 
 #include "algorithm/voxel/ray_path.h"
 #include "algorithm/voxel/ray_sampling.h"
-#include "algorithm/voxel/voxel_cuts.h"
+#include "algorithm/voxel/voxel_grid.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/streaminggs/spare_parts.h"
 #include "modules/streaminggs/vsu/rays_in_flight.h"

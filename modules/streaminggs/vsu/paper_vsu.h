@@ -3,7 +3,7 @@
 // as a visit to the HFUs; one with more Gaussians than a list holds in pieces, the nearest first.
 // Timing: rays_in_flight.h, ray_unit.h, sampled_rays.h; one cycle a visit and a cut; table misses
 // wait for DRAM.
-// Function: algorithm/order/group_visits.h, algorithm/voxel/voxel_cuts.h.
+// Function: algorithm/order/group_visits.h, algorithm/voxel/voxel_grid.h.
 #pragma once
 
 #include <cstdint>

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <vector>
 
-#include "algorithm/memory/regions.h"
+#include "algorithm/memory/scene_layout.h"
 #include "tlm/data_sheet.h"
 #include "tlm/memory_access.h"
 

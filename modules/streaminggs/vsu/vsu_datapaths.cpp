@@ -5,8 +5,8 @@
 
 #include "algorithm/splat/counting.h"
 #include "algorithm/voxel/cell_samples.h"
-#include "algorithm/voxel/chunk_node.h"
 #include "algorithm/voxel/chunk_test.h"
+#include "algorithm/voxel/chunk_tree.h"
 #include "algorithm/voxel/ray_path.h"
 #include "modules/datapath/counted_datapath.h"
 #include "modules/datapath/filter_flows.h"

@@ -7,7 +7,7 @@
 
 #include "algorithm/scene/camera.h"
 #include "algorithm/splat/rects.h"
-#include "algorithm/voxel/chunk_node.h"
+#include "algorithm/voxel/chunk_tree.h"
 #include "modules/datapath/lane_steps.h"
 #include "modules/streaminggs/vsu/exact_vsu_config.h"
 #include "modules/streaminggs/vsu/paper_vsu_config.h"

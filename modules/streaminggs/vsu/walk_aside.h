@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "algorithm/memory/regions.h"
+#include "algorithm/memory/scene_layout.h"
 #include "algorithm/order/walk_queue.h"
 #include "modules/streaminggs/built_for.h"
 #include "modules/streaminggs/vsu/exact_vsu_config.h"

@@ -9,6 +9,13 @@
 
 namespace sgs {
 
+// Prints a line each: layout, views and their split, sizes, alpha, points, bounds, where the
+// cameras stand; then its notes.
+void print_dataset(const Dataset& dataset);
+
+// Its notes alone, a line each.
+void print_notes(const Dataset& dataset);
+
 struct DatasetArguments {
   std::string folder;
   DatasetOptions options;

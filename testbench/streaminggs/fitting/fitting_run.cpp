@@ -10,8 +10,7 @@
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/output_file.h"
 #include "testbench/command_line/guard.h"
-#include "testbench/command_line/interrupt.h"
-#include "testbench/streaminggs/report/fact_line.h"
+#include "testbench/streaminggs/report/numbers.h"
 #include "testbench/streaminggs/report/provenance.h"
 
 namespace sgs {

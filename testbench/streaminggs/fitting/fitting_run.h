@@ -14,7 +14,6 @@
 #include "algorithm/tune/splat_gradient.h"
 #include "testbench/command_line/command_line.h"
 #include "testbench/streaminggs/fitting/fitting_log.h"
-#include "testbench/streaminggs/fitting/test_pictures.h"
 
 namespace sgs {
 

@@ -15,7 +15,6 @@
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/fitting/dataset_arguments.h"
 #include "testbench/streaminggs/fitting/fitting_run.h"
-#include "testbench/streaminggs/report/fact_line.h"
 #include "testbench/streaminggs/report/numbers.h"
 
 namespace sgs {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "algorithm/train/tuning_config.h"
+#include "algorithm/train/fitting.h"
 #include "testbench/command_line/config_source.h"
 #include "testbench/streaminggs/fitting/dataset_arguments.h"
 #include "testbench/streaminggs/fitting/fitting_run.h"

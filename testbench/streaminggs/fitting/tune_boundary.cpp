@@ -8,9 +8,9 @@
 #include "algorithm/files/input_error.h"
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/train/evaluation.h"
+#include "algorithm/train/comparison.h"
+#include "algorithm/train/fitting.h"
 #include "algorithm/train/scene_tuner.h"
-#include "algorithm/train/tuning_config.h"
 #include "testbench/streaminggs/fitting/tune_command.h"
 
 namespace sgs {

@@ -12,10 +12,15 @@
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/output_file.h"
 #include "algorithm/splat/activate.h"
+#include "algorithm/splat/gaussian.h"
+#include "algorithm/storage/storage_scheme.h"
+#include "algorithm/train/photographs.h"
 #include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/report/numbers.h"
 #include "testbench/streaminggs/run/prepared_scene.h"
 
 namespace sgs {
+
 namespace {
 
 TuningViews views_for(const TuneArguments& arguments, const Scene& scene, OutputPlan& plan) {
@@ -67,6 +72,111 @@ int run(const TuneArguments& arguments, const Kinds& kinds) {
 }
 
 }  // namespace
+
+TuningViews views_of_dataset(Dataset given) {
+  auto dataset = std::make_unique<const Dataset>(std::move(given));
+  std::vector<Camera> cameras;
+  for (const int view : views_of(*dataset, Split::kTrain)) {
+    cameras.push_back(dataset->views[static_cast<std::size_t>(view)].camera);
+  }
+  Photographs tune(*dataset, Split::kTrain), test(*dataset, Split::kTest);
+  tune.load(1);
+  test.load(1);
+  std::string says = fmt::format("{} photographs of {}, {} others to test with",
+                                 grouped(tune.size()), dataset->folder, grouped(test.size()));
+  return {std::move(dataset), std::move(cameras), std::move(tune), std::move(test),
+          std::move(says)};
+}
+
+TuningViews views_of_scene(const std::string& pictures, const ActivatedCloud& cloud,
+                           const std::vector<Camera>& cameras, std::uint32_t between,
+                           std::uint64_t seed) {
+  constexpr std::size_t kTestEvery = 8;
+  std::vector<Camera> tune, test;
+  if (between > 0) {
+    test = cameras;
+    tune = cameras_between(cameras, between, seed);
+  } else {
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      (i % kTestEvery == 0 ? test : tune).push_back(cameras[i]);
+    }
+    if (tune.empty()) tune = test;
+  }
+  const bool alone = between == 0 && cameras.size() == 1;
+  TuningViews out{nullptr, tune, own_pictures(cloud, tune), own_pictures(cloud, test), ""};
+  out.tune.load(1);
+  out.test.load(1);
+  out.says = fmt::format("no photographs: {}, {} views{}, {} to test with", pictures,
+                         grouped(tune.size()), between > 0 ? " between the cameras" : "",
+                         alone ? "the same one" : grouped(test.size()));
+  return out;
+}
+
+std::vector<PixelSize> frame_sizes(const TuningViews& views) {
+  std::vector<PixelSize> sizes;
+  for (const Camera& camera : views.cameras) sizes.push_back({camera.width, camera.height});
+  return sizes;
+}
+
+CloudInStorage in_storage(const GaussianCloud& cloud, const StorageConfig& storage) {
+  auto [table, order] = scheme_of(storage.order).arrange(activate(cloud), storage);
+  return {std::move(table), reordered(cloud, order)};
+}
+
+CloudInStorage given_in_storage(const TuneArguments& arguments, const TuningJob& job) {
+  CloudInStorage given = in_storage(job.scene.cloud, job.config.storage);
+  if (given.cloud.size() == 0) {
+    throw InputError(arguments.scene + ": holds no Gaussian that a view could show");
+  }
+  return given;
+}
+
+std::optional<PaperOrderConfig> tuned_order(const TuneArguments& arguments,
+                                            const RunConfig& config) {
+  std::optional<PaperOrderConfig> order = config.design->paper_order();
+  if (!order && !config.design->draws_reference()) {
+    throw InputError(fmt::format(
+        "--{}: machine {} as it is configured draws neither paper order nor the reference "
+        "picture, expected rendering.precision fp32 and nothing that is given up",
+        arguments.purpose(), config.machine()));
+  }
+  if (!order && arguments.visit_memory_mb != TuneArguments::kVisitMemoryMb) {
+    throw InputError("--visit-memory: only paper order has visits");
+  }
+  if (order && order->parts > 1 && in_16_bits(order->precision)) {
+    throw InputError(
+        "fetch: shared with rendering.precision fp16 filters each part of a group by itself, "
+        "expected split, or fp32");
+  }
+  return order;
+}
+
+SceneTuner begun_tuner(const TuneArguments& arguments, const TuningJob& job,
+                       const TuningConfig& config, DrawingOrder order, Penalty penalty,
+                       const GaussianCloud& given, const std::optional<Checkpoint>& from) {
+  if (!from) {
+    return {config, job.views.tune, std::move(order), std::move(penalty), given};
+  }
+  SceneTuner::State state = SceneTuner::restored(from->state);
+  if (state.cloud.means != given.means) {
+    throw InputError(fmt::format("{}: is of another scene than {}, its centres are others",
+                                 arguments.resume, arguments.scene));
+  }
+  return {config, job.views.tune, std::move(order), std::move(penalty), std::move(state)};
+}
+
+void print_target(const TuningJob& job, std::size_t gaussians) {
+  const StorageConfig& storage = job.config.storage;
+  print_fact("target", job.views.says);
+  print_fact("Gaussians",
+             fmt::format("{} in {}, {} left out that no view can show", grouped(gaussians),
+                         scheme_of(storage.order).in_words(storage),
+                         grouped(job.scene.cloud.size() - gaussians)));
+}
+
+void print_visits(const VisitPlan& plan) {
+  print_fact("visits", fmt::format("{:.1f} MB kept", static_cast<double>(plan.kept_bytes()) / 1e6));
+}
 
 SubCommand add_tune_command(CommandLine& line, const Kinds& kinds) {
   auto arguments = std::make_shared<TuneArguments>();

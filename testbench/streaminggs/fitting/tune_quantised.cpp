@@ -11,11 +11,11 @@
 #include "algorithm/splat/activate.h"
 #include "algorithm/storage/decoded_image.h"
 #include "algorithm/storage/image_file.h"
-#include "algorithm/train/evaluation.h"
+#include "algorithm/train/comparison.h"
 #include "algorithm/train/quantised_tuner.h"
 #include "algorithm/vq/image_weights.h"
 #include "testbench/streaminggs/fitting/tune_command.h"
-#include "testbench/streaminggs/report/fact_line.h"
+#include "testbench/streaminggs/report/numbers.h"
 #include "testbench/streaminggs/run/progress.h"
 
 namespace sgs {

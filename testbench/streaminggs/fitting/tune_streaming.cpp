@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "algorithm/files/input_error.h"
-#include "algorithm/render/splat_bins.h"
+#include "algorithm/render/blend_pass.h"
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/train/evaluation.h"
+#include "algorithm/train/comparison.h"
 #include "testbench/streaminggs/fitting/tune_command.h"
 
 namespace sgs {

@@ -4,7 +4,7 @@
 #include <glm/common.hpp>
 #include <utility>
 
-#include "algorithm/image/drawing.h"
+#include "algorithm/image/image.h"
 
 namespace sgs {
 namespace {

@@ -18,7 +18,7 @@ class ContactSheet {
 
   bool shows(std::size_t frame) const;
   // The next that is shown, of at least one pixel. The line has no letters but those of
-  // algorithm/image/drawing.h.
+  // algorithm/image/image.h.
   void add(const Image& picture, std::string line);
 
   // Rows of up to six. Not without a picture.

@@ -1,10 +1,12 @@
-// Numbers for people.
+// Numbers for people, and lines about a scene, a data set or a fitting: a name, and what it is.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <cstdint>
 #include <string>
+
+#include "algorithm/scene/describe.h"
 
 namespace sgs {
 
@@ -17,5 +19,15 @@ inline std::string grouped(std::uint64_t value) {
 
 // As many digits as anybody reads of a measure: 0.4000000059604645 -> "0.4"
 inline std::string rounded(double value) { return fmt::format("{:.4g}", value); }
+
+// "gaussians                 1,200"
+inline void print_fact(const std::string& name, const std::string& value) {
+  fmt::print("{:<26}{}\n", name, value);
+}
+
+inline std::string in_words(const Extent& extent) {
+  return fmt::format("{:.4g} {:.4g} {:.4g} .. {:.4g} {:.4g} {:.4g} (world units)", extent.min.x,
+                     extent.min.y, extent.min.z, extent.max.x, extent.max.y, extent.max.z);
+}
 
 }  // namespace sgs

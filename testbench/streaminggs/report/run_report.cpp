@@ -11,7 +11,7 @@
 #include "testbench/streaminggs/report/provenance.h"
 #include "testbench/streaminggs/report/report.h"
 #include "testbench/streaminggs/report/report_visitor.h"
-#include "testbench/streaminggs/run/seconds_since.h"
+#include "testbench/streaminggs/run/progress.h"
 
 namespace sgs {
 namespace {

@@ -13,7 +13,6 @@
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/memory/record_split.h"
-#include "algorithm/storage/build_memory_image.h"
 #include "algorithm/storage/decoded_image.h"
 #include "algorithm/storage/encoded_cloud.h"
 #include "algorithm/storage/image_file.h"

@@ -8,7 +8,7 @@
 #include "modules/dram/dram_config.h"
 #include "modules/machine_design.h"
 #include "testbench/result/frame_result.h"
-#include "testbench/timeline/group_range.h"
+#include "testbench/timeline/activity_track.h"
 
 namespace sgs {
 

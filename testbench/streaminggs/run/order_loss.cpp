@@ -1,8 +1,13 @@
 // The chain of pictures from the reference to the frame.
 #include "testbench/streaminggs/run/order_loss.h"
 
+#include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <vector>
+
+#include "algorithm/image/quality.h"
+#include "algorithm/render/reference_renderer.h"
 
 namespace sgs {
 
@@ -28,6 +33,22 @@ OrderLoss order_loss(const Image* reference, const Image& decoded_reference,
   if (golden.computed_exactly) loss.arithmetic = *part;
   loss.pixel_format = *++part;
   return loss;
+}
+
+std::optional<FileOrderDifference> file_order_difference(const PreparedScene& scene,
+                                                         const View<float>& view,
+                                                         const glm::vec3& background,
+                                                         const Image& reference) {
+  const auto& file_indices = scene.stored.file_indices;
+  if (!file_indices) return {};
+  const std::vector<char> tiles = tiles_of_ties(view, scene.given(), *file_indices);
+  if (std::find(tiles.begin(), tiles.end(), 1) == tiles.end()) {
+    return FileOrderDifference{std::numeric_limits<double>::infinity()};
+  }
+  const Image picture =
+      picture_by_ranks(view, scene.given(), *file_indices, background, tiles, reference);
+  return FileOrderDifference{psnr_db(reference, picture), max_abs_error(reference, picture),
+                             differing_pixels(reference, picture)};
 }
 
 }  // namespace sgs

@@ -2,16 +2,19 @@
 // splats, blends in the wrong order, and computations that differ from the reference.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
-#include "algorithm/image/error_parts.h"
 #include "algorithm/image/image.h"
+#include "algorithm/image/quality.h"
+#include "algorithm/splat/view.h"
 #include "modules/golden_frame.h"
+#include "testbench/streaminggs/run/prepared_scene.h"
 
 namespace sgs {
 
 // The frame is up to five steps away from the reference picture, and its squared error is divided
-// among them as error_parts.h says: the scene is encoded, splats are missed (`in_order` instead of
+// among them as quality.h says: the scene is encoded, splats are missed (`in_order` instead of
 // the reference picture of the scene as encoded), what is left is blended in the wrong order
 // (`exactly` instead of `in_order`), half precision and boxes round and cut (the golden picture
 // instead of `exactly`), pixels are rounded.
@@ -34,5 +37,23 @@ inline bool is_lossy(const GoldenFrame& golden) {
 // as encoded. frame: `golden` in the frame buffer's format.
 OrderLoss order_loss(const Image* reference, const Image& decoded_reference,
                      const GoldenFrame& golden, const Image& frame);
+
+// The error of a picture because ties of depth are broken by storage slot. Renderers of the scene's
+// file break them by place in the file.
+
+// The reference picture in storage order against the one in the order of the file.
+struct FileOrderDifference {
+  double psnr_db;  // infinite where they are equal
+  double max_abs_error = 0;
+  std::uint64_t pixels = 0;  // pixels that differ in any bit of a channel's value
+};
+
+// reference: of scene.given(). The other picture is made only of tiles where some tie is broken
+// otherwise; elsewhere both are the same by construction. None of a packed scene: its file's order
+// is not known.
+std::optional<FileOrderDifference> file_order_difference(const PreparedScene& scene,
+                                                         const View<float>& view,
+                                                         const glm::vec3& background,
+                                                         const Image& reference);
 
 }  // namespace sgs

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "algorithm/splat/activate.h"
-#include "algorithm/storage/sh_bands.h"
 #include "algorithm/storage/storage_scheme.h"
 #include "algorithm/storage/stored_scene.h"
 #include "testbench/streaminggs/report/provenance.h"

@@ -8,6 +8,7 @@
 #include <string>
 
 namespace sgs {
+
 namespace {
 
 // Over whatever stood there; the cursor stays at its beginning.

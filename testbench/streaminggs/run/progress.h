@@ -1,6 +1,7 @@
 // Progress of a long job, on a terminal only.
 #pragma once
 
+#include <chrono>
 #include <string>
 
 #include "algorithm/vq/quantise.h"
@@ -25,5 +26,9 @@ class ProgressLine {
  private:
   const bool terminal_;
 };
+
+inline double seconds_since(std::chrono::steady_clock::time_point began) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
 
 }  // namespace sgs

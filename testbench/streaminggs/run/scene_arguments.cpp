@@ -15,7 +15,7 @@
 #include "algorithm/splat/view.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "testbench/builtin/open_scene.h"
-#include "testbench/command_line/while_doing.h"
+#include "testbench/command_line/guard.h"
 
 namespace sgs {
 namespace {

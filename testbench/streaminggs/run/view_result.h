@@ -14,7 +14,6 @@
 #include "testbench/result/frame_result.h"
 #include "testbench/streaminggs/report/binding.h"
 #include "testbench/streaminggs/report/memory_interface.h"
-#include "testbench/streaminggs/run/file_order.h"
 #include "testbench/streaminggs/run/frame_run.h"
 #include "testbench/streaminggs/run/order_loss.h"
 #include "testbench/streaminggs/run/prepared_scene.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "algorithm/memory/codebook.h"
+#include "algorithm/memory/second_half.h"
 #include "testbench/streaminggs/run/progress.h"
 #include "testbench/streaminggs/sweep/sweep.h"
 

@@ -1,7 +1,7 @@
 // What a misspelt name is taken for.
-#include "algorithm/files/nearest_name.h"
-
 #include <catch2/catch.hpp>
+
+#include "algorithm/files/input_error.h"
 
 namespace sgs::test {
 namespace {

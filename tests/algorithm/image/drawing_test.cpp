@@ -1,9 +1,9 @@
-// drawing.h, dot by dot.
-#include "algorithm/image/drawing.h"
-
+// Drawing of image.h, dot by dot.
 #include <catch2/catch.hpp>
 #include <string>
 #include <vector>
+
+#include "algorithm/image/image.h"
 
 using namespace sgs;
 

@@ -1,11 +1,10 @@
-// error_parts.h against values by hand.
-#include "algorithm/image/error_parts.h"
-
+// Error parts of quality.h against values by hand.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
 
 #include "algorithm/files/input_error.h"
+#include "algorithm/image/quality.h"
 #include "tests/algorithm/image/test_images.h"
 
 using namespace sgs;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "algorithm/voxel/chunk_node.h"
+#include "algorithm/voxel/chunk_tree.h"
 
 namespace sgs {
 namespace {

@@ -7,8 +7,8 @@
 #include <catch2/catch.hpp>
 
 #include "algorithm/image/quality.h"
+#include "algorithm/render/blend_pass.h"
 #include "algorithm/render/group_state.h"
-#include "algorithm/render/splat_bins.h"
 #include "tests/algorithm/render/decisions.h"
 
 namespace sgs::test {

@@ -1,8 +1,8 @@
-// Tests of algorithm/render/splat_bins.h.
-#include "algorithm/render/splat_bins.h"
-
+// The bins of blend_pass.h.
 #include <catch2/catch.hpp>
 #include <random>
+
+#include "algorithm/render/blend_pass.h"
 
 using namespace sgs;
 

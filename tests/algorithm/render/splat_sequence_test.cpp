@@ -1,11 +1,10 @@
-// Tests of algorithm/render/splat_sequence.h.
-#include "algorithm/render/splat_sequence.h"
-
+// The sequence of splats of blend_pass.h.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <random>
 
+#include "algorithm/render/blend_pass.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/make_splat.h"
 #include "tests/algorithm/render/test_clouds.h"

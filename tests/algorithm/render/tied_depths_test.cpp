@@ -1,6 +1,4 @@
 // Ties of depth, and what another order of them does to the reference picture.
-#include "algorithm/render/tied_depths.h"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <numeric>

@@ -6,7 +6,6 @@
 
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/spherical_harmonics.h"
-#include "algorithm/storage/sh_bands.h"
 #include "algorithm/storage/storage_scheme.h"
 #include "algorithm/storage/stored_scene.h"
 #include "testbench/builtin/builtin_scene.h"

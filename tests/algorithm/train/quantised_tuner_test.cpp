@@ -12,7 +12,7 @@
 #include "algorithm/storage/image_file.h"
 #include "algorithm/storage/storage_scheme.h"
 #include "algorithm/storage/stored_scene.h"
-#include "algorithm/train/evaluation.h"
+#include "algorithm/train/comparison.h"
 #include "algorithm/train/photographs.h"
 #include "algorithm/vq/image_weights.h"
 #include "tests/algorithm/render/test_clouds.h"

@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "algorithm/files/input_error.h"
+#include "algorithm/render/blend_pass.h"
 #include "algorithm/render/reference_renderer.h"
-#include "algorithm/render/splat_bins.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/gaussian.h"
-#include "algorithm/train/evaluation.h"
+#include "algorithm/train/comparison.h"
 #include "algorithm/train/photographs.h"
 #include "tests/algorithm/render/test_clouds.h"
 #include "tests/algorithm/train/cameras_in_a_row.h"

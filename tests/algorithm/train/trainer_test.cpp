@@ -11,7 +11,7 @@
 
 #include "algorithm/image/quality.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/train/evaluation.h"
+#include "algorithm/train/comparison.h"
 #include "algorithm/train/start_cloud.h"
 #include "algorithm/tune/group_sequences.h"
 #include "tests/algorithm/render/test_clouds.h"

@@ -1,6 +1,4 @@
 // L_CBP by hand, its gradient against dual numbers, and the plan of visits.
-#include "algorithm/tune/boundary_penalty.h"
-
 #include <tbb/global_control.h>
 
 #include <catch2/catch.hpp>
@@ -8,8 +6,9 @@
 
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/gaussian.h"
+#include "algorithm/tune/additional_losses.h"
+#include "algorithm/tune/group_sequences.h"
 #include "algorithm/tune/scene_gradient.h"
-#include "algorithm/tune/visited_sequences.h"
 #include "tests/algorithm/render/test_clouds.h"
 #include "tests/algorithm/splat/dual.h"
 

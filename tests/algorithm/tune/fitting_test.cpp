@@ -10,9 +10,9 @@
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/tune/adam.h"
+#include "algorithm/tune/group_sequences.h"
 #include "algorithm/tune/photometric_loss.h"
 #include "algorithm/tune/scene_gradient.h"
-#include "algorithm/tune/visited_sequences.h"
 #include "tests/algorithm/render/test_clouds.h"
 
 namespace sgs::test {

@@ -1,10 +1,9 @@
 // The price of streaming: by hand, and its derivatives against dual numbers.
-#include "algorithm/tune/streaming_price.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "algorithm/splat/activate.h"
+#include "algorithm/tune/additional_losses.h"
 #include "algorithm/tune/gaussian_gradient.h"
 #include "tests/algorithm/render/test_clouds.h"
 #include "tests/algorithm/splat/dual.h"

@@ -1,6 +1,4 @@
 // Paper order, drawn and differentiated.
-#include "algorithm/tune/visited_sequences.h"
-
 #include <tbb/global_control.h>
 
 #include <catch2/catch.hpp>
@@ -8,6 +6,7 @@
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/gaussian.h"
+#include "algorithm/tune/group_sequences.h"
 #include "tests/algorithm/tune/float_scenes.h"
 #include "tests/algorithm/tune/hard_gaussians.h"
 #include "tests/support/same_bytes.h"

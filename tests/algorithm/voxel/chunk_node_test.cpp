@@ -1,11 +1,10 @@
 // Quantised nodes of the chunk tree: what comes back is never smaller than what went in.
-#include "algorithm/voxel/chunk_node.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 #include <vector>
 
+#include "algorithm/voxel/chunk_tree.h"
 #include "tests/algorithm/voxel/chunk_bound_checks.h"
 
 using namespace sgs;

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "algorithm/files/input_error.h"
-#include "algorithm/voxel/voxel_cuts.h"
 
 namespace sgs {
 namespace {

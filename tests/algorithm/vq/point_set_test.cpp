@@ -1,11 +1,11 @@
 // Merging of equal points, drawing by weight.
-#include "algorithm/vq/point_set.h"
-
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <limits>
 #include <numeric>
 #include <random>
+
+#include "algorithm/vq/kmeans.h"
 
 namespace sgs {
 namespace {

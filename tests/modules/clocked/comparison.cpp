@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "modules/config/strict_json.h"
-#include "testbench/process/in_child.h"
+#include "testbench/process/child_process.h"
 #include "tlm/time_resolution.h"
 
 namespace sgs::test {

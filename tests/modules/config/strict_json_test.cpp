@@ -175,8 +175,9 @@ TEST_CASE("strict json: what is printed reads back as the same configuration") {
   CHECK(!back.pj);
   CHECK(back.sets.at("one").depth == 77);
   CHECK(back.notes.at("why") == "\"quoted\"");
-  CHECK(config_listing(c).find("inner.depth = 4  (1..1024)  entries\n") != std::string::npos);
-  CHECK(config_listing(c).find("pj = null  (0..9, null)  energy\n") != std::string::npos);
+  const std::string commented = config_to_commented_json(c);
+  CHECK(commented.find("\"depth\": 4,  // 1..1024: entries\n") != std::string::npos);
+  CHECK(commented.find("\"pj\": null,  // 0..9, null: energy\n") != std::string::npos);
 }
 
 }  // namespace

@@ -1,10 +1,7 @@
 // The memory through its TLM socket: bytes, errors, latencies, back-pressure, both transports.
 #include "modules/dram/dram_controller.h"
 
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
-#include <cstdio>
 #include <functional>
 #include <vector>
 
@@ -254,27 +251,6 @@ TEST_CASE("dram controller: time, bandwidth and refreshes of idle time are accou
     CHECK(s.energy.total_pj() > 0);
     CHECK(s.energy_by_current_set_pj.size() == 2);
   });
-}
-
-TEST_CASE("dram controller: recorded requests can be asked again") {
-  const std::string path = std::string(SGS_BINARY_DIR) + "/recorded_" + std::to_string(getpid());
-  run(quiet(), [&](Initiator& i, DramController& dram) {
-    OutputFile file(path);
-    RequestTraceWriter writer(file);
-    dram.record_requests(writer);
-    i.begin(i.make(tlm::TLM_READ_COMMAND, 96, 20));
-    sc_core::wait(1000, SC_NS);
-    i.begin(i.make(tlm::TLM_WRITE_COMMAND, 4096, 256));
-    file.commit();
-  });
-  const auto requests = read_request_trace(path, 1.25).requests;
-  std::remove(path.c_str());
-  REQUIRE(requests.size() == 2);
-  CHECK(requests[0].address == 96);
-  CHECK_FALSE(requests[0].write);
-  CHECK(requests[0].bytes == 20);
-  CHECK(requests[1].write);
-  CHECK(requests[1].not_before_ns == 1000);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "testbench/dram/bench_table.h"
-#include "testbench/dram/part_streams.h"
 
 namespace sgs {
 namespace {

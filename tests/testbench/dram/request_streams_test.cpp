@@ -6,10 +6,27 @@
 #include <fstream>
 
 #include "algorithm/files/input_error.h"
-#include "testbench/dram/request_generator.h"
+#include "testbench/dram/stream_bench.h"
 
 namespace sgs {
 namespace {
+
+// FNV-1a of 64 bits over the eight little-endian bytes of (address | write) of `count` requests.
+// The offset basis is 1469598103934665603, FNV's without its last digit: the figures that others
+// can compare with were made with it.
+std::uint64_t stream_hash(const StreamSpec& spec, std::uint64_t count) {
+  RequestGenerator generator(spec);
+  std::uint64_t hash = 1469598103934665603u;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const MemoryRequest request = generator.next();
+    const std::uint64_t word = request.address | (request.write ? 1u : 0u);
+    for (int byte = 0; byte < 8; ++byte) {
+      hash ^= (word >> (8 * byte)) & 0xff;
+      hash *= 0x100000001b3u;
+    }
+  }
+  return hash;
+}
 
 TEST_CASE("streams: first draw, first random address, and hashes of a million requests") {
   std::uint64_t state = 88172645463325252u;
@@ -74,22 +91,6 @@ TEST_CASE("request trace: addresses, directions, times, comments") {
   CHECK_FALSE(requests[0].write);
   CHECK(requests[1].write);
   CHECK(requests[1].not_before_ns == 10.5);
-}
-
-TEST_CASE("request trace: what is written reads back") {
-  const RequestFile file("");
-  OutputFile output(file.path());
-  RequestTraceWriter writer(output);
-  writer.add({0x7fffffc0, true, 1234567.0625, 256});
-  writer.add({64, false, 1234568.0, 20});
-  output.commit();
-  const std::vector<MemoryRequest> requests = read_request_trace(file.path(), 1.25).requests;
-  REQUIRE(requests.size() == 2);
-  CHECK(requests[0].address == 0x7fffffc0);
-  CHECK(requests[0].write);
-  CHECK(requests[0].not_before_ns == 1234567.0625);
-  CHECK(requests[0].bytes == 256);
-  CHECK(requests[1].bytes == 20);
 }
 
 TEST_CASE("request trace: bad lines are refused with their number") {

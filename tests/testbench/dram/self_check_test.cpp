@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "modules/dram/memspec.h"
-#include "testbench/process/in_child.h"
+#include "testbench/process/child_process.h"
 #include "tlm/time_resolution.h"
 
 namespace sgs {

@@ -1,6 +1,4 @@
 // The counts of the original's work beside a loop over pixels.
-#include "testbench/gpu/raster_work.h"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <vector>
@@ -10,6 +8,7 @@
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/projection.h"
+#include "testbench/gpu/gpu_model.h"
 #include "tests/algorithm/render/test_clouds.h"
 
 namespace sgs::test {

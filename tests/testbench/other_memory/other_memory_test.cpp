@@ -7,8 +7,7 @@
 
 #include "modules/machines.h"
 #include "testbench/builtin/open_scene.h"
-#include "testbench/process/in_child.h"
-#include "testbench/process/sc_errors.h"
+#include "testbench/process/child_process.h"
 #include "testbench/streaminggs/run/prepared_scene.h"
 #include "tests/testbench/other_memory/blocking_memory.h"
 #include "tests/testbench/other_memory/prompt_memory.h"

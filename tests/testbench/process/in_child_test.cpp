@@ -1,7 +1,5 @@
-// in_child.h, child_process.h: what comes back, why a child failed, and that it is forked from one
+// child_process.h: what comes back, why a child failed, and that it is forked from one
 // thread.
-#include "testbench/process/in_child.h"
-
 #include <sys/time.h>
 #include <tbb/parallel_for.h>
 #include <unistd.h>

@@ -12,9 +12,9 @@
 #include "modules/machines.h"
 #include "modules/streaminggs/exact_machine.h"
 #include "testbench/builtin/open_scene.h"
-#include "testbench/process/in_child.h"
+#include "testbench/process/child_process.h"
 #include "testbench/result/collect.h"
-#include "testbench/result/wire.h"
+#include "testbench/result/frame_result.h"
 #include "testbench/streaminggs/run/prepared_scene.h"
 #include "tlm/time_resolution.h"
 

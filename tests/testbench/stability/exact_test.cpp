@@ -1,7 +1,7 @@
 // Harmonics with 100 digits, by hand.
-#include <catch2/catch.hpp>
+#include "testbench/stability/exact.h"
 
-#include "testbench/stability/exact_colour.h"
+#include <catch2/catch.hpp>
 
 using namespace sgs;
 

@@ -12,7 +12,6 @@
 
 #include "algorithm/scene/camera.h"
 #include "testbench/builtin/builtin_scene.h"
-#include "testbench/builtin/camera_rig.h"
 #include "testbench/streaminggs/report/contact_sheet.h"
 #include "testbench/streaminggs/run/path_summary.h"
 #include "tests/support/scratch_folder.h"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "testbench/streaminggs/sweep/point_stream.h"
+#include "testbench/streaminggs/sweep/sweep.h"
 #include "tests/support/scratch_folder.h"
 
 namespace sgs {

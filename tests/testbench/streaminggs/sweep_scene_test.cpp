@@ -1,6 +1,4 @@
-// sweep_scene.h: what a scene makes once for all points.
-#include "testbench/streaminggs/sweep/sweep_scene.h"
-
+// The scene of sweep_task.h: what a scene makes once for all points.
 #include <catch2/catch.hpp>
 #include <string>
 #include <vector>
@@ -9,6 +7,7 @@
 #include "algorithm/storage/stored_scene.h"
 #include "modules/machines.h"
 #include "testbench/streaminggs/run/recently_used.h"
+#include "testbench/streaminggs/sweep/sweep_task.h"
 #include "tests/support/scratch_folder.h"
 
 namespace sgs {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "algorithm/memory/regions.h"
+#include "algorithm/memory/scene_layout.h"
 #include "tests/modules/clocked/clocked_fifo.h"
 #include "tests/modules/clocked/clocked_port.h"
 

@@ -12,7 +12,7 @@
 #include "algorithm/render/tile_renderer.h"
 #include "modules/gscore/gscore_datapaths.h"
 #include "testbench/units/gscore_bench.h"
-#include "testbench/units/random_splats.h"
+#include "testbench/units/random_scene.h"
 #include "tests/modules/gscore/clocked/clocked_render_core.h"
 
 namespace sgs::test {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "algorithm/memory/scene_layout.h"
-#include "algorithm/voxel/voxel_cuts.h"
+#include "algorithm/voxel/voxel_grid.h"
 #include "tests/modules/clocked/clocked_fifo.h"
 #include "tests/modules/streaminggs/clocked/clocked_rays.h"
 #include "tests/modules/streaminggs/clocked/clocked_sampling.h"

@@ -3,7 +3,7 @@
 
 #include "modules/streaminggs/sorting/paper_sorter.h"
 #include "testbench/units/job_memory.h"
-#include "testbench/units/random_splats.h"
+#include "testbench/units/random_scene.h"
 #include "tests/modules/clocked/comparison.h"
 #include "tests/modules/streaminggs/clocked/clocked_paper_sorter.h"
 

@@ -6,7 +6,7 @@
 #include "modules/streaminggs/paper_config.h"
 #include "modules/streaminggs/rendering/rendering_unit.h"
 #include "testbench/units/job_memory.h"
-#include "testbench/units/random_splats.h"
+#include "testbench/units/random_scene.h"
 #include "tests/modules/clocked/comparison.h"
 #include "tests/modules/streaminggs/clocked/clocked_rendering.h"
 

@@ -1,14 +1,13 @@
-// The noise of noise.h.
-#include "testbench/builtin/noise.h"
+// Noise.
+#include "testbench/builtin/random.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <glm/common.hpp>
 
-#include "testbench/builtin/random.h"
-
 namespace sgs {
+
 namespace {
 
 double lattice_value(std::int64_t x, std::int64_t y, std::int64_t z) {

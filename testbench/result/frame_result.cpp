@@ -1,5 +1,4 @@
-// Fields of the result, by cereal.
-#include "testbench/result/wire.h"
+#include "testbench/result/frame_result.h"
 
 #include <cereal/archives/binary.hpp>
 #include <cereal/types/string.hpp>
