@@ -1,4 +1,4 @@
-// Visitors that write a configuration as JSON, with comments or without.
+// Visitors that write a configuration: as JSON, with comments or without, and as a list for people.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -55,18 +55,8 @@ class JsonWriter : public ConfigWriter {
   std::vector<std::pair<std::string, Json>> stack_{{"", Json::object()}};
 };
 
-// JSON with a comment behind each key: what is allowed, and what it means.
-class CommentedWriter : public ConfigWriter {
- public:
-  std::string text() const override {
-    std::string all = "{\n";
-    for (const Line& line : lines_) {
-      all += line.json + (line.comma ? "," : "");
-      all += line.comment.empty() ? "\n" : "  // " + line.comment + "\n";
-    }
-    return all + "}\n";
-  }
-
+// What it writes says of each key which values are allowed and what they mean.
+class ExplainingWriter : public ConfigWriter {
  protected:
   void on_bool(const char* key, bool& value, const char* doc) override {
     line(key, value, "true, false", doc);
@@ -99,6 +89,56 @@ class CommentedWriter : public ConfigWriter {
   std::vector<std::string> free_keys(const std::vector<std::string>& present) override {
     return present;
   }
+  virtual void line(const char* key, const Json& value, const std::string& allowed,
+                    const char* doc) = 0;
+
+ private:
+  static std::string interval(ConfigRange range) {
+    return fmt::format("{}..{}", static_cast<double>(range.lo), static_cast<double>(range.hi));
+  }
+};
+
+class ListingWriter : public ExplainingWriter {
+ public:
+  std::string text() const override { return text_; }
+
+ protected:
+  void begin_section(const char* key, const char*) override {
+    path_.push_back(std::string(key) + ".");
+  }
+  void end_section() override { path_.pop_back(); }
+  void line(const char* key, const Json& value, const std::string& allowed,
+            const char* doc) override {
+    text_ += fmt::format("{}{} = {}  ({})  {}\n", join(path_, ""), key, plain(value), allowed, doc);
+  }
+
+ private:
+  static std::string plain(const Json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number_float()) return fmt::format("{}", value.get<double>());
+    if (!value.is_array()) return value.dump();
+    std::vector<std::string> texts;
+    for (const Json& one : value) texts.push_back(plain(one));
+    return "[" + join(texts) + "]";
+  }
+
+  std::vector<std::string> path_;
+  std::string text_;
+};
+
+// JSON with a comment behind each key: what is allowed, and what it means.
+class CommentedWriter : public ExplainingWriter {
+ public:
+  std::string text() const override {
+    std::string all = "{\n";
+    for (const Line& line : lines_) {
+      all += line.json + (line.comma ? "," : "");
+      all += line.comment.empty() ? "\n" : "  // " + line.comment + "\n";
+    }
+    return all + "}\n";
+  }
+
+ protected:
   void begin_section(const char* key, const char* doc) override {
     add(fmt::format("{}{}: {{", indent(), Json(key).dump()), doc);
     last_.push_back(kNone);
@@ -108,6 +148,11 @@ class CommentedWriter : public ConfigWriter {
     lines_.push_back({indent() + "}", "", false});
     last_.back() = lines_.size() - 1;
   }
+  void line(const char* key, const Json& value, const std::string& allowed,
+            const char* doc) override {
+    const std::string comment = *doc == '\0' ? "" : fmt::format("{}: {}", allowed, doc);
+    add(fmt::format("{}{}: {}", indent(), Json(key).dump(), value.dump()), comment);
+  }
 
  private:
   static constexpr std::size_t kNone = SIZE_MAX;
@@ -116,13 +161,6 @@ class CommentedWriter : public ConfigWriter {
     bool comma;  // another entry of the same object follows
   };
 
-  static std::string interval(ConfigRange range) {
-    return fmt::format("{}..{}", static_cast<double>(range.lo), static_cast<double>(range.hi));
-  }
-  void line(const char* key, const Json& value, const std::string& allowed, const char* doc) {
-    const std::string comment = *doc == '\0' ? "" : fmt::format("{}: {}", allowed, doc);
-    add(fmt::format("{}{}: {}", indent(), Json(key).dump(), value.dump()), comment);
-  }
   std::string indent() const { return std::string(2 * last_.size(), ' '); }
   void add(std::string json, std::string comment) {
     if (last_.back() != kNone) lines_[last_.back()].comma = true;
@@ -140,5 +178,6 @@ std::unique_ptr<ConfigWriter> make_json_writer() { return std::make_unique<JsonW
 std::unique_ptr<ConfigWriter> make_commented_writer() {
   return std::make_unique<CommentedWriter>();
 }
+std::unique_ptr<ConfigWriter> make_listing_writer() { return std::make_unique<ListingWriter>(); }
 
 }  // namespace sgs

@@ -73,6 +73,7 @@ class ConfigWriter : public ConfigVisitor {
 };
 std::unique_ptr<ConfigWriter> make_json_writer();
 std::unique_ptr<ConfigWriter> make_commented_writer();
+std::unique_ptr<ConfigWriter> make_listing_writer();
 
 // A configuration as indented JSON: what --print-config prints, readable again.
 template <class Struct>
