@@ -25,6 +25,14 @@ constexpr std::uint64_t next_turn_of_one(std::uint64_t now, std::uint64_t interv
   return now % interval < copies ? now : next_turn(now, interval);
 }
 
+// Likewise where turns are spread evenly over the interval: what each begins with comes apart, too.
+constexpr std::uint64_t next_spread_turn(std::uint64_t now, std::uint64_t interval,
+                                         std::uint64_t copies) {
+  if (now == 0 || copies >= interval) return now;
+  const std::uint64_t turn = (now - 1) * copies / interval + 1;
+  return cycles_for(turn * interval, copies);
+}
+
 // Waits until the pipeline's next turn. It keeps the activity busy, and what waits keeps its place
 // in the queue ahead: take it out behind this.
 inline void wait_for_turn(Activity& activity, std::uint64_t interval) {

@@ -226,10 +226,10 @@ bool FineFilter::is_wanted(const Part& part, const FineCandidate& candidate) con
          !finished[static_cast<int>(part.index)]->finished(candidate.group);
 }
 
-// The FFUs have their turns a cycle after each other.
+// The FFUs have their turns spread evenly: records come apart by what reads or decodes them.
 void FineFilter::wait_for_turn_of_one(Part& part) const {
   const std::uint64_t now = part.filter.clock().now_cycles();
-  part.filter.work(next_turn_of_one(now, tests_.interval_cycles(), config_.ffus) - now);
+  part.filter.work(next_spread_turn(now, tests_.interval_cycles(), config_.ffus) - now);
 }
 
 void FineFilter::wait_for_place(Part& part, std::uint32_t visit) {

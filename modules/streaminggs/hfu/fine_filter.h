@@ -2,10 +2,10 @@
 // candidate, decodes it and puts it through the FFU: projection, exact test against the group,
 // colour. With a shared fetch a second half is read once and taken by the HFU of each part of the
 // group that the candidate may touch; its slot is free when all have it.
-// Timing: one candidate every ffu_interval_cycles in each FFU, whose turns follow each other by a
-// cycle; marks pass beside the lanes. Each begins only with a place in the FIFO behind its
-// pipeline. second_half_slots fetches run ahead. Quantised second halves pass a stage before the
-// FFU that reads the codebook buffer, each once there is a place for the decoded record. Function:
+// Timing: one candidate every ffu_interval_cycles in each FFU, whose turns are spread evenly; marks
+// pass beside the lanes. Each begins only with a place in the FIFO behind its pipeline.
+// second_half_slots fetches run ahead. Quantised second halves pass a stage before the FFU that
+// reads the codebook buffer, each once there is a place for the decoded record. Function:
 // algorithm/splat/make_splat.h.
 #pragma once
 

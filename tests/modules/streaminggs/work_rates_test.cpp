@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 #include <tuple>
+#include <vector>
 
 #include "modules/datapath/counted_datapath.h"
 #include "modules/datapath/folded_pipeline.h"
@@ -35,6 +36,26 @@ TEST_CASE("turns: what one lane-set begins, begins whole intervals apart") {
         last[copy] = begins;
         if (copies == 1) CHECK(begins == next_turn(now, interval));
         now = begins + 1 + random() % 3 * (random() % 20);
+      }
+    }
+  }
+}
+
+TEST_CASE("turns: spread evenly, of each lane-set whole intervals apart") {
+  for (const std::uint64_t interval : {1U, 2U, 7U, 27U}) {
+    for (const std::uint64_t copies : {1U, 2U, 4U, 9U}) {
+      INFO(copies << " copies, a turn every " << interval << " cycles");
+      const std::uint64_t used = std::min(copies, interval);
+      std::vector<std::uint64_t> turns;
+      for (std::uint64_t now = 0; now < 3 * interval; ++now) {
+        const std::uint64_t begins = next_spread_turn(now, interval, copies);
+        CHECK(begins >= now);
+        if (begins == now) turns.push_back(now);
+      }
+      REQUIRE(turns.size() == 3 * used);
+      for (std::size_t i = 1; i < turns.size(); ++i) {
+        CHECK(turns[i] - turns[i - 1] >= interval / used);
+        if (i >= used) CHECK(turns[i] - turns[i - used] == interval);
       }
     }
   }

@@ -133,7 +133,8 @@ class ClockedFfu {
     if (!wants_) wants_ = !finished(item.group);
     return *wants_;
   }
-  bool has_turn() const { return now_ % hw_.test_cycles < hw_.ffus; }
+  // As many turns in the cycles of a test as there are FFUs, evenly.
+  bool has_turn() const { return now_ * hw_.ffus % hw_.test_cycles < hw_.ffus; }
   // A mark passes beside what the lanes do. read_cycles: that an item is being read.
   void begin(const FineItem& item, std::uint32_t read_cycles) {
     if (!item.is_mark) {

@@ -229,7 +229,7 @@ TEST_CASE("clocked reference: fine filter") {
            FineWorkload{
                "as of paper, groups that finish", 5, {1, 1, 1, 1, {7000}}, paper, of_paper},
            FineWorkload{"two FFUs", 50, {}, two, of_paper},
-           FineWorkload{"two FFUs, groups that finish", 5, {1, 1, 1, 1, {7000}}, two, of_paper},
+           FineWorkload{"two FFUs, groups that finish", 5, {1, 1, 1, 1, {3500}}, two, of_paper},
            FineWorkload{"nine FFUs of 6 cycles", 250, {}, nine},
        }) {
     table.workload(load, run_fine, clocked_fine);
