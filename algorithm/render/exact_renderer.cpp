@@ -152,10 +152,7 @@ void render_group(const View<float>& view, const ActivatedCloud& cloud, const Ch
 StreamingResult render_exact_order(const View<float>& view, const ActivatedCloud& cloud,
                                    const ChunkTree& tree, const ExactOrderConfig& config) {
   StreamingResult out;
-  const auto pixels = static_cast<std::size_t>(view.width) * view.height;
-  out.frame.image = Image(view.width, view.height);
-  out.frame.transmittance.resize(pixels);
-  out.frame.contributors.resize(pixels);
+  out.frame = RenderResult(view.width, view.height);
   const std::vector<PixelRect> groups = pixel_groups(view.width, view.height, config.group);
   std::vector<StreamingStats> stats(groups.size());
   const std::vector<VisibleExtents> known = stored_extents(cloud);

@@ -94,10 +94,7 @@ Image render_visited_in_order(const View<float>& view, const ActivatedCloud& clo
       state.blend(splat);
     }
   };
-  RenderResult result;
-  result.image = Image(view.width, view.height);
-  result.transmittance.resize(result.image.pixels.size());
-  result.contributors.resize(result.image.pixels.size());
+  RenderResult result(view.width, view.height);
   for (const GroupState& state : blend_scene(view, cloud, blend_visited, group)) {
     state.store(background, result);
   }

@@ -149,10 +149,7 @@ std::vector<std::vector<std::uint32_t>> visited_voxels(const View<float>& view,
 StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud& cloud,
                                    const VoxelGrid& grid, const PaperOrderConfig& config) {
   StreamingResult out;
-  const auto pixels = static_cast<std::size_t>(view.width) * view.height;
-  out.frame.image = Image(view.width, view.height);
-  out.frame.transmittance.resize(pixels);
-  out.frame.contributors.resize(pixels);
+  out.frame = RenderResult(view.width, view.height);
 
   const std::vector<PixelRect> groups = pixel_groups(view.width, view.height, config.group);
   const std::vector<std::vector<PixelRect>> parts_of_groups =

@@ -85,10 +85,7 @@ RenderResult render_reference(const View<float>& view, const ActivatedCloud& clo
                               const glm::vec3& background) {
   const std::vector<GroupState> tiles =
       blend_scene(view, cloud, [](GroupState& tile, const Splat& splat) { tile.blend(splat); });
-  RenderResult result;
-  result.image = Image(view.width, view.height);
-  result.transmittance.resize(result.image.pixels.size());
-  result.contributors.resize(result.image.pixels.size());
+  RenderResult result(view.width, view.height);
   for (const GroupState& tile : tiles) tile.store(background, result);
   return result;
 }

@@ -10,6 +10,12 @@ namespace sgs {
 
 // The picture and, for each pixel, the light that is left and the number of splats blended.
 struct RenderResult {
+  RenderResult() = default;
+  RenderResult(int width, int height)
+      : image(width, height),
+        transmittance(image.pixels.size()),
+        contributors(image.pixels.size()) {}
+
   Image image;                              // colour composed over the background
   std::vector<float> transmittance;         // [height, width]
   std::vector<std::uint32_t> contributors;  // [height, width] splats blended

@@ -184,10 +184,7 @@ TileResult render_tiles(const View<float>& view, const ActivatedCloud& cloud,
   Lists lists(view, config.rules);
   for (std::uint32_t s = 0; s < splats.size(); ++s) lists.add(splats[s], s, out.stats);
 
-  const auto pixels = static_cast<std::size_t>(view.width) * view.height;
-  out.frame.image = Image(view.width, view.height);
-  out.frame.transmittance.resize(pixels);
-  out.frame.contributors.resize(pixels);
+  out.frame = RenderResult(view.width, view.height);
   std::vector<TileStats> tile_stats(lists.size());
   Flags contributing(cloud.size());
   tbb::parallel_for(std::size_t{0}, lists.size(), [&](std::size_t t) {

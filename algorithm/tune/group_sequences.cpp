@@ -52,10 +52,7 @@ GroupSequences reference_sequences(const View<float>& view, const ActivatedCloud
 
 RenderResult draw(const GroupSequences& sequences, const glm::vec3& background,
                   BlendPrecision precision) {
-  RenderResult result;
-  result.image = Image(sequences.width, sequences.height);
-  result.transmittance.resize(result.image.pixels.size());
-  result.contributors.resize(result.image.pixels.size());
+  RenderResult result(sequences.width, sequences.height);
   tbb::parallel_for(std::size_t{0}, sequences.groups.size(), [&](std::size_t group) {
     GroupState state(sequences.groups[group], sequences.width, sequences.height, precision);
     for (std::size_t i = sequences.first[group]; i != sequences.first[group + 1]; ++i) {

@@ -73,10 +73,7 @@ void blend(const RenderingPlan& plan, const Splat& splat, GroupState& state, Exp
 
 Expected expect(const RenderingPlan& plan) {
   Expected out;
-  RenderResult frame;
-  frame.image = Image(plan.job.view.width, plan.job.view.height);
-  frame.transmittance.resize(frame.image.pixels.size());
-  frame.contributors.resize(frame.image.pixels.size());
+  RenderResult frame(plan.job.view.width, plan.job.view.height);
   for (std::size_t g = 0; g < plan.groups.size(); ++g) {
     const PixelRect& pixels = plan.job.groups[g];
     GroupState state(pixels, plan.job.view.width, plan.job.view.height, plan.config.precision,

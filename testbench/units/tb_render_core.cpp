@@ -58,10 +58,7 @@ struct Expected {
 Expected expect(const Plan& plan, const GscoreJob& job) {
   Expected out;
   const NumberFormat format = plan.config.tiles.features;
-  RenderResult frame;
-  frame.image = Image(plan.width_px, plan.height_px);
-  frame.transmittance.resize(frame.image.pixels.size());
-  frame.contributors.resize(frame.image.pixels.size());
+  RenderResult frame(plan.width_px, plan.height_px);
   for (std::uint32_t t = 0; t < plan.tiles.size(); ++t) {
     GroupState state(job.pixels(t), plan.width_px, plan.height_px, plan.config.rendering.precision,
                      SubtileTest::kBox);

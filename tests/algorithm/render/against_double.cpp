@@ -34,10 +34,7 @@ std::vector<Splat> rounded_splats(const std::vector<OracleSplat>& ordered) {
 }
 
 Image blend_in_float(const Camera& camera, const std::vector<Splat>& splats) {
-  RenderResult frame;
-  frame.image = Image(camera.width, camera.height);
-  frame.transmittance.resize(frame.image.pixels.size());
-  frame.contributors.resize(frame.image.pixels.size());
+  RenderResult frame(camera.width, camera.height);
   const auto tiles = pixel_groups(camera.width, camera.height, square_of(kTilePx));
   const SplatBins bins = bin_splats(cell_grid(camera.width, camera.height, square_of(kTilePx)),
                                     splats.data(), splats.size());

@@ -80,10 +80,7 @@ std::vector<std::uint32_t> order(const View<float>& view, const PixelRect& group
 
 Image render_with_nearest_ties(const View<float>& view, const ActivatedCloud& cloud,
                                const VoxelGrid& grid, const PixelSize& group) {
-  RenderResult frame;
-  frame.image = Image(view.width, view.height);
-  frame.transmittance.resize(frame.image.pixels.size());
-  frame.contributors.resize(frame.image.pixels.size());
+  RenderResult frame(view.width, view.height);
   const std::vector<double> distance = distances(view, cloud, grid);
   const auto groups = pixel_groups(view.width, view.height, group);
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {

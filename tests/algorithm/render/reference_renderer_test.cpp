@@ -37,10 +37,7 @@ RenderResult render_by_definition(const View<float>& view, const ActivatedCloud&
     splats.push_back(splat);
   }
   std::sort(splats.begin(), splats.end(), in_front);
-  RenderResult out;
-  out.image = Image(view.width, view.height);
-  out.transmittance.resize(out.image.pixels.size());
-  out.contributors.resize(out.image.pixels.size());
+  RenderResult out(view.width, view.height);
   for (int y = 0; y < view.height; ++y) {
     for (int x = 0; x < view.width; ++x) {
       const int sub_x = x / kSubtilePx, sub_y = y / kSubtilePx;
