@@ -1,8 +1,9 @@
-// Encodings of second halves: sizes, what comes back, and how far off it is.
+// Encodings of second halves: sizes, layouts by hand, what comes back and how far off it is.
 #include "algorithm/memory/second_half.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <random>
 #include <vector>
@@ -118,6 +119,19 @@ double length(const std::array<float, 4>& quat) {
   double squared = 0;
   for (const float component : quat) squared += static_cast<double>(component) * component;
   return std::sqrt(squared);
+}
+
+TEST_CASE("second half: quantised records by hand") {
+  std::byte record[17];
+  encode_quantised_second_half({Encoding::kVq, 3, kPaperEntries}, {1, 0x203, 4095, 511}, 254,
+                               record);
+  const unsigned char words[17] = {1, 0, 0, 0, 3, 2, 0, 0, 0xff, 0x0f, 0, 0, 0xff, 1, 0, 0, 254};
+  CHECK(std::memcmp(record, words, 17) == 0);
+  encode_quantised_second_half({Encoding::kVqPacked, 3, kPaperEntries}, {1, 0x203, 4095, 511}, 254,
+                               record);
+  // 9 + 12 + 12 + 12 bits: 1ff fff 203 001
+  const unsigned char packed[8] = {254, 0x01, 0x30, 0x20, 0xff, 0xff, 0x1f, 0};
+  CHECK(std::memcmp(record, packed, 8) == 0);
 }
 
 TEST_CASE("half: every field off by no more than sixteen bits leave") {

@@ -231,6 +231,23 @@ TEST_CASE("ply reader: values too large to be drawn are refused, or dropped and 
   }
 }
 
+TEST_CASE("ply reader: what may be of any size") {
+  const test::ScratchFolder scratch;
+  PlyTable table = counting_table(1);
+  table.rows[0][9] = 3e38;    // opacity: a sigmoid
+  table.rows[0][10] = -3e38;  // the logarithm of a scale of nothing
+  for (std::size_t k = 13; k < 17; ++k) table.rows[0][k] = -3e38;  // a rotation, to be normalised
+  table.rows[0][3] = 3e38;                                         // a normal
+  CHECK(read_ply(scratch.write("a.ply", test::bytes_of(table))).cloud.size() == 1);
+}
+
+TEST_CASE("ply reader: values that are not finite do not matter in properties it ignores") {
+  const test::ScratchFolder scratch;
+  PlyTable table = counting_table(2);
+  table.rows[1][4] = std::nan("");  // ny
+  CHECK(read_ply(scratch.write("a.ply", test::bytes_of(table))).cloud.size() == 2);
+}
+
 TEST_CASE("ply reader refuses: quaternions of length zero") {
   PlyTable table = counting_table(5);
   for (int i = 0; i < 4; ++i) table.rows[3][13 + i] = i % 2 ? 0.0 : -0.0;

@@ -1,10 +1,12 @@
-// Tests of algorithm/splat/spherical_harmonics.h: values by hand.
+// Tests of algorithm/splat/spherical_harmonics.h: values by hand, and orthonormality, which fixes
+// every constant but its sign.
 #include "algorithm/splat/spherical_harmonics.h"
 
 #include <Imath/half.h>
 
 #include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <vector>
 
 using namespace sgs;
@@ -19,7 +21,85 @@ std::array<double, 16> basis_at(double x, double y, double z) {
   return out;
 }
 
+// Nodes and weights of the 8-point Gauss-Legendre rule on [-1, 1]: exact to degree 15.
+void gauss_legendre(std::array<double, 8>& nodes, std::array<double, 8>& weights) {
+  for (int i = 0; i < 8; ++i) {
+    double t = std::cos(M_PI * (i + 0.75) / 8.5), slope = 0;
+    for (int step = 0; step < 50; ++step) {
+      double before = 1, now = t;  // Legendre polynomials of degree n - 1 and n
+      for (int n = 2; n <= 8; ++n) {
+        const double next = ((2 * n - 1) * t * now - (n - 1) * before) / n;
+        before = now;
+        now = next;
+      }
+      slope = 8 * (t * now - before) / (t * t - 1);
+      t -= now / slope;
+    }
+    nodes[static_cast<std::size_t>(i)] = t;
+    weights[static_cast<std::size_t>(i)] = 2 / ((1 - t * t) * slope * slope);
+  }
+}
+
 }  // namespace
+
+TEST_CASE("SH basis by hand along the axes") {
+  const auto z = basis_at(0, 0, 1);
+  const auto check = [](const std::array<double, 16>& basis, std::vector<double> expected) {
+    for (std::size_t k = 0; k < 16; ++k) {
+      CAPTURE(k);
+      CHECK(basis[k] == Approx(expected[k]).margin(1e-15));
+    }
+  };
+  check(z, {0.28209479177387814, 0, 0.4886025119029199, 0, 0, 0, 2 * 0.31539156525252005, 0, 0, 0,
+            0, 0, 2 * 0.3731763325901154, 0, 0, 0});
+  check(basis_at(1, 0, 0),
+        {0.28209479177387814, 0, 0, -0.4886025119029199, 0, 0, -0.31539156525252005, 0,
+         0.5462742152960396, 0, 0, 0, 0, 0.4570457994644658, 0, -0.5900435899266435});
+  check(basis_at(0, 1, 0),
+        {0.28209479177387814, -0.4886025119029199, 0, 0, 0, 0, -0.31539156525252005, 0,
+         -0.5462742152960396, 0.5900435899266435, 0, 0.4570457994644658, 0, 0, 0, 0});
+}
+
+TEST_CASE("SH basis by hand at (1, 2, 2)/3") {
+  // xx = 1/9, yy = zz = 4/9, xy = xz = 2/9, yz = 4/9
+  const double expected[16] = {
+      0.28209479177387814,           -0.4886025119029199 * 2 / 3,   0.4886025119029199 * 2 / 3,
+      -0.4886025119029199 / 3,       1.0925484305920792 * 2 / 9,    -1.0925484305920792 * 4 / 9,
+      0.31539156525252005 / 3,       -1.0925484305920792 * 2 / 9,   -0.5462742152960396 / 3,
+      0.5900435899266435 * 2 / 27,   2.890611442640554 * 4 / 27,    -0.4570457994644658 * 22 / 27,
+      -0.3731763325901154 * 14 / 27, -0.4570457994644658 * 11 / 27, -1.445305721320277 * 2 / 9,
+      0.5900435899266435 * 11 / 27};
+  const auto basis = basis_at(1.0 / 3, 2.0 / 3, 2.0 / 3);
+  for (std::size_t k = 0; k < 16; ++k) {
+    CAPTURE(k);
+    CHECK(basis[k] == Approx(expected[k]).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("SH basis is orthonormal over the sphere") {
+  std::array<double, 8> nodes{}, weights{};
+  gauss_legendre(nodes, weights);
+  double gram[16][16] = {};
+  constexpr int kTurns = 16;  // exact for products of degree 6
+  for (std::size_t i = 0; i < 8; ++i) {
+    const double z = nodes[i], ring = std::sqrt(1 - z * z);
+    for (int turn = 0; turn < kTurns; ++turn) {
+      const double phi = 2 * M_PI * turn / kTurns;
+      const auto basis = basis_at(ring * std::cos(phi), ring * std::sin(phi), z);
+      for (std::size_t a = 0; a < 16; ++a) {
+        for (std::size_t b = 0; b < 16; ++b) {
+          gram[a][b] += weights[i] * (2 * M_PI / kTurns) * basis[a] * basis[b];
+        }
+      }
+    }
+  }
+  for (int a = 0; a < 16; ++a) {
+    for (int b = 0; b < 16; ++b) {
+      CAPTURE(a, b);
+      CHECK(gram[a][b] == Approx(a == b ? 1 : 0).margin(1e-12));
+    }
+  }
+}
 
 TEST_CASE("colour by hand: degree 0 ignores the direction, 0.5 is added, negatives are clamped") {
   const glm::dvec3 dc(1, 0, -3);
