@@ -7,7 +7,7 @@ import json
 from collections.abc import Sequence
 
 from reporting import charts
-from reporting.charts import escaped, number
+from reporting.charts import escaped, number, rate
 from reporting.costs import KINDS_OF_ENERGY, WAYS, kinds_of_energy, ways_of_bytes
 from reporting.folder import Run, Table, ViewFiles
 from tables import REQUIRED, measure_of
@@ -251,6 +251,7 @@ def table_of_views(runs: Sequence[Run]) -> Table:
         "cycles",
         "PSNR",
         "DRAM MB",
+        "bus MB",
         "mJ",
         "W",
         "mm2",
@@ -268,10 +269,11 @@ def table_of_views(runs: Sequence[Run]) -> Table:
                     view["scene"]["name"],
                     str(view["view"]),
                     f"{frame['width_px']}x{frame['height_px']}",
-                    number(frame["fps"]),
+                    rate(frame["fps"]),
                     number(frame["cycles"]),
                     quality(view),
                     number(view["dram"]["bytes"] / 1e6),
+                    number(view["dram"]["bus_bytes"] / 1e6),
                     number(1e3 * energy["total_j"]),
                     number(energy["mean_power_w"]),
                     number(view["area_mm2"]["total"]),
