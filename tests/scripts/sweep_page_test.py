@@ -72,7 +72,9 @@ class Read(InFolder):
         path = self.folder / "sweep.jsonl"
         path.write_text(line(9, 1, 1) + line(9, 1, 1, fit_memories=True))
         plain, fitted = read_sweep(path)
-        self.assertEqual(fitted.command(), plain.command().replace(" --set", " --fit-memories --set"))
+        self.assertEqual(
+            fitted.command(), plain.command().replace(" --set", " --fit-memories --set")
+        )
 
     def test_the_front_is_of_time_area_and_energy(self):
         points = [
