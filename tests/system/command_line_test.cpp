@@ -57,7 +57,7 @@ TEST_CASE("command line: options and their values") {
             "&& "
             "cat t",
             {"view        px  PSNR dB     SSIM = streaming renderer        cycles     fps  DRAM MB "
-             "      mJ\n",
+             "  bus MB       mJ\n",
              "\nview 0: ", "\nview 0: energy ", "\n  DRAM region ", "\n  frame_buffer ",
              " mm2 at 32 nm; ", " with PHY and controller of lpddr3_1600\n"}},
            {"$SG simulate $B --verbose --out o",

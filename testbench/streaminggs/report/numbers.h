@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -17,5 +18,12 @@ inline std::string grouped(std::uint64_t value) {
 
 // As many digits as anybody reads of a measure: 0.4000000059604645 -> "0.4"
 inline std::string rounded(double value) { return fmt::format("{:.4g}", value); }
+
+// A frame rate, rounded down: 89.96 holds no 90. 89.649 -> "89.6", 1234.9 -> "1,234"
+inline std::string rate_in_words(double fps) {
+  constexpr double kOfRounding = 1 + 1e-12;
+  if (fps >= 100) return grouped(static_cast<std::uint64_t>(fps * kOfRounding));
+  return fmt::format("{:.1f}", std::floor(10 * fps * kOfRounding) / 10);
+}
 
 }  // namespace sgs
