@@ -31,10 +31,10 @@ Simulations are kept in explore_runs.jsonl: interrupted or started again it goes
 Writes explore.csv, a line for each configuration, explore.json, what its columns mean and what made
 it, and exploration.svg and .png, whose axes are what was required; filter_units.svg
 and .png where CFUs and FFU lanes are all that differs. For one objective explore_best.json is the
-best as a configuration, explore_best_SCENE.json where scenes have their own. Where no configuration
-holds what is required, the exit status is 3, and the last line says which bounds are missed and by
-how much the nearest one misses. Of what was interrupted or failed midway there are
-explore_partial.csv and .json.
+best as a configuration, explore_best_SCENE.json where scenes have their own; the last line has the
+command that simulates it. Where no configuration holds what is required, the exit status is 3, and
+the last line says which bounds are missed and by how much the nearest one misses. Of what was
+interrupted or failed midway there are explore_partial.csv and .json.
 
 With --study the trials of a search or grid are kept by name in --storage, a file, or a database of
 postgresql:// in which any number of workers on any number of machines take part, each started by
@@ -49,6 +49,7 @@ import dataclasses
 import functools
 import json
 import pathlib
+import shlex
 import sys
 from collections.abc import Iterable, Sequence
 
@@ -237,6 +238,19 @@ def area_band(work: Work) -> str:
     )
 
 
+def path_of_best(arguments: argparse.Namespace, scene: str) -> pathlib.Path:
+    """scene: what tells its name apart, as best_configurations() has it."""
+    return arguments.out / f"explore_best{scene}.json"
+
+
+def run_of_best(work: Work, scene: str) -> str:
+    """The command that simulates the best on the first view that it is for."""
+    task = work.judge.task
+    of, view = next(v for v in task.views if scene in ("", f"_{v[0].name}"))
+    run = Run(of, str(view), task.size, str(path_of_best(work.arguments, scene)))
+    return shlex.join(["streaminggs", "simulate", *run.arguments()])
+
+
 def is_studied(arguments: argparse.Namespace) -> bool:
     return arguments.search in options.SAMPLERS or bool(arguments.study)
 
@@ -289,11 +303,13 @@ def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Seque
     work.made.write(arguments.out, "explore", arguments.streaminggs)
     for earlier in arguments.out.glob("explore_best*.json"):
         earlier.unlink()
-    read = functools.partial(read_config, kept.binary)
-    for scene, document in work.best_configurations(read).items():
-        path = arguments.out / f"explore_best{scene}.json"
-        write_text(path, json.dumps(document, indent=2) + "\n")
+    best = work.best_configurations(functools.partial(read_config, kept.binary))
+    for scene, document in best.items():
+        write_text(path_of_best(arguments, scene), json.dumps(document, indent=2) + "\n")
     draw_beside(arguments.out, "exploration", "filter_units")
+    print(f"written to {arguments.out}")
+    for scene in best:
+        print(f"best: {path_of_best(arguments, scene)}: {run_of_best(work, scene)}", flush=True)
     if said := work.made.none_holds():
         raise run_arguments.NoneHolds(said)
 

@@ -24,7 +24,7 @@ from collections.abc import Sequence
 from reporting import sweep, tables
 from runs import run_arguments
 from runs.files import write_text
-from reporting.charts import escaped
+from reporting.charts import escaped, rate
 from reporting.folder import (
     Run,
     Table,
@@ -69,8 +69,8 @@ def heading_of_path(run: Run) -> tuple[str, str]:
     summary, first = run.summary, run.views[0].report
     words = (
         f"{summary['frames']} frames along {run.path}",
-        f"frames a second: worst {summary['worst_fps']:.0f} (frame {summary['worst_frame']}), "
-        f"p99 {summary['p99_fps']:.0f}, median {summary['median_fps']:.0f}",
+        f"frames a second: worst {rate(summary['worst_fps'])} (frame {summary['worst_frame']}), "
+        f"p99 {rate(summary['p99_fps'])}, median {rate(summary['median_fps'])}",
         f"{summary['late_frames']} late at {summary['frame_rate']:g} a second",
         *(f"{empty} hold no Gaussian" for empty in [summary["empty_frames"]] if empty),
         f"{summary['energy_a_second_j']:.3g} J a second",

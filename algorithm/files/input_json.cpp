@@ -59,6 +59,24 @@ class Watch {
   std::vector<std::set<std::string>> open_objects_;
 };
 
+// "line 3, column 7", of the byte with this number, from 1.
+std::string place_in(const std::string& text, std::size_t byte) {
+  const std::string before = text.substr(0, byte == 0 ? 0 : byte - 1);
+  const auto lines = std::count(before.begin(), before.end(), '\n');
+  const std::size_t begin = lines == 0 ? 0 : before.rfind('\n') + 1;
+  return fmt::format("line {}, column {}", lines + 1, before.size() - begin + 1);
+}
+
+// What the parser says, without its names and its own way to count.
+std::string reason_of(const Json::exception& error) {
+  const std::string told = error.what();
+  for (const char* before : {" - ", "] "}) {
+    const std::size_t at = told.find(before);
+    if (at != std::string::npos) return told.substr(at + std::string(before).size());
+  }
+  return told;
+}
+
 }  // namespace
 
 Json parse_json(const std::string& text, const std::string& origin) {
@@ -71,9 +89,10 @@ Json parse_json(const std::string& text, const std::string& origin) {
         },
         true, true);
   } catch (const Json::parse_error& error) {
-    throw InputError(fmt::format("{}: byte {}: not JSON ({})", origin, error.byte, error.what()));
+    throw InputError(
+        fmt::format("{}: {}: not JSON: {}", origin, place_in(text, error.byte), reason_of(error)));
   } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: not JSON ({})", origin, error.what()));
+    throw InputError(fmt::format("{}: not JSON: {}", origin, reason_of(error)));
   }
 }
 

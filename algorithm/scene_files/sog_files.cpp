@@ -240,9 +240,10 @@ struct Level {
     if (node.has("lods") && node.at("lods").has(level)) {
       const JsonPlace lods = node.at("lods");
       const JsonPlace part = lods.at(level);
-      if (part.at("file").whole() >= file_count) part.at("file").refuse("one of filenames");
+      const auto file = static_cast<std::uint64_t>(part.at("file").whole());
+      if (file >= file_count) part.at("file").refuse("one of filenames");
       part.at("offset").whole();
-      counts[part.at("file").whole()] += part.at("count").whole();
+      counts[file] += static_cast<std::uint64_t>(part.at("count").whole());
     }
     if (!node.has("children")) return;
     for (const JsonPlace& child : node.at("children").elements()) {

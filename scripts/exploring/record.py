@@ -59,6 +59,12 @@ class Record:
     def held(self) -> list[Judged]:
         return [judged for judged in self.told() if judged.holds()]
 
+    def open_yet(self) -> list[Judged]:
+        """What holds so far and was not judged on all views: those with most views first, of these
+        the best by costs."""
+        found = [j for j in self.told() if j.dropped and max(j.violations, default=0) <= 0]
+        return sorted(found, key=lambda judged: (-judged.drawn, judged.costs))
+
     def front(self) -> list[Judged]:
         """What holds and no other one that holds beats in what is to be small, nor in its picture
         where pictures differ. By costs."""
@@ -133,8 +139,10 @@ class Record:
         required = " and ".join(r.text for r in self.task.requirements)
         held = len(self.held())
         text = f"{len(self.told())} configurations"
-        text += f", of which {held} hold {required}" if required else ""
+        text += f", of which {how_many_hold(held)} {required}" if required else ""
         said = [f"{text}; {len(self.front())} of them no other one beats." if held else f"{text}."]
+        if held and required and (left := len(self.open_yet())):
+            said.append(f"Not judged on all views, though none is missed so far: {left}.")
         if self.shows_pictures():
             said.append("Pictures differ, so that PSNR decides as well.")
         if none := self.none_holds():
@@ -162,29 +170,59 @@ class Record:
         missed = [judged for judged in self.told() if max(judged.violations, default=0) > 0]
         return min(missed, key=lambda judged: max(judged.violations), default=None)
 
-    def why_none_holds(self) -> str:
-        """How many miss what, and by how much the nearest one does."""
+    def missed(self) -> str:
+        """How many miss what, and how many are open yet."""
         told, said = self.told(), []
         for n, required in enumerate(self.task.requirements):
             count = sum(judged.violations[n] > 0 for judged in told)
             if count:
                 said.append(f"{count} {required.missed_in_words()} ({required.text})")
-        if open_yet := sum(max(judged.violations, default=0) <= 0 for judged in told):
-            said.append(f"{open_yet} not drawn on all views yet")
-        words = ", ".join(said)
+        if open_yet := len(self.open_yet()):
+            said.append(f"{open_yet} not judged on all views")
+        return ", ".join(said)
+
+    def why_none_holds(self) -> str:
+        """The same, and by how much the nearest one misses it."""
+        words = self.missed()
         if not (nearest := self.nearest()):
             return words
         missed = max(nearest.violations)
         of = self.task.requirements[nearest.violations.index(missed)]
-        more = " or more, not drawn on all views" if nearest.dropped else ""
+        more = " or more, not judged on all views" if nearest.dropped else ""
         more = "" if of in self.task.of_machines() else more
         return f"{words}; the nearest misses {of.text} by {missed:.1%}{more}"
+
+    def so_far(self) -> str:
+        """How many hold, and what the best of them comes to; else what holds so far, or what is
+        missed."""
+        if best := self.front():
+            text = f"{len(best)} on the front, {self.objectives_of(best[0])}"
+            if not self.task.requirements:
+                return text
+            held, left = len(self.held()), len(self.open_yet())
+            more = f", {left} not judged on all views" if left else ""
+            return f"{how_many_hold(held)}{more}; {text}"
+        if open_yet := self.open_yet():
+            most = open_yet[0]
+            on = f"holds so far on {most.drawn} of {len(self.task.views)} views"
+            words = filter(None, [self.objectives_of(most), self.what_differs(most)])
+            return f"{on}: {', '.join(words)}; of {len(self.told())} {self.missed()}"
+        return f"none of {len(self.told())} holds yet: {self.why_none_holds()}"
+
+    def objectives_of(self, judged: Judged) -> str:
+        """What it comes to in each, as far as that is known."""
+        numbers = zip((o.name for o in self.task.objectives), self.numbers(judged))
+        return ", ".join(f"{name} {value:.6g}" for name, value in numbers if value != "")
 
     def what_differs(self, judged: Judged) -> str:
         """Its settings that are not the same in all."""
         told = self.told()
         keys = [k for k in self.task.keys if len({str(j.settings[k]) for j in told}) > 1]
         return " ".join(f"{key}={judged.settings[key]}" for key in keys or self.task.keys)
+
+
+def how_many_hold(count: int) -> str:
+    return f"{count} {'holds' if count == 1 else 'hold'}"
 
 
 def on_front(held: Sequence[Judged], points: Sequence[Sequence[float]]) -> list[Judged]:
@@ -226,13 +264,7 @@ class Work:
         if self.arguments.minutes:
             left = min(left, 60 * self.arguments.minutes - gone)
         words = [f"[{done}/{of}]" if math.isfinite(of) else f"[{done}]"]
-        if best := self.made.front():
-            numbers = zip((o.name for o in self.judge.task.objectives), self.made.numbers(best[0]))
-            words.append(
-                f"{len(best)} on the front, " + ", ".join(f"{n} {v:.6g}" for n, v in numbers)
-            )
-        else:
-            words.append(f"none of {len(self.made.told())} holds yet: {self.made.why_none_holds()}")
+        words.append(self.made.so_far())
         if math.isfinite(left):
             words[-1] += f"; {max(left, 0) / 60:.1f} min left"
         print(*words, file=sys.stderr, flush=True)

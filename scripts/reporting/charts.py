@@ -42,6 +42,12 @@ def number(value: float, digits: int = 3) -> str:
     return f"{value:,.{decimals}f}"
 
 
+def rate(fps: float) -> str:
+    """Rounded down, as the terminal does: 89.96 holds no 90."""
+    fps *= 1 + 1e-12  # of rounding
+    return f"{math.floor(fps):,}" if fps >= 100 else f"{math.floor(10 * fps) / 10:.1f}"
+
+
 def percent(share: float) -> str:
     return f"{100 * share:.0f} %" if share >= 0.0995 or share == 0 else f"{100 * share:.1f} %"
 

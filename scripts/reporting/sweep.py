@@ -19,7 +19,11 @@ from runs.simulations import pareto_front, pictures_differ, value_at, with_pictu
 
 DONE = "done"
 STATUSES = (DONE, "refused", "failed")
-MEMORIES = ("input", "codebook", "shared", "buffer")
+# Memory that is built, by its name in a report and in a table.
+MEMORIES = {
+    f"sram.{memory}_bytes": f"sram.{memory}_needed_bytes"
+    for memory in ("input", "codebook", "shared", "buffer")
+}
 WITH_PHY = "area_mm2.with_memory_interface.middle"  # results of earlier programs lack it
 BINDING = "binding.unit"  # of PATHS the one that is no number
 # Of a report, and columns of the table of the same names.
@@ -30,12 +34,14 @@ PATHS = (
     "area_mm2.total",
     "image.psnr_db",
     "dram.bytes",
+    "dram.bus_bytes",
     WITH_PHY,
     BINDING,
-    *(f"sram.{memory}_available_bytes" for memory in MEMORIES),
+    *MEMORIES,
 )
-NEEDED = PATHS[:4]  # what every machine has
-OF_POINT = ("scene", "cameras", "view", "size", "config")
+NEEDED = PATHS[:4]  # what every machine has; it takes time
+FITTED = "fit_memories"
+OF_POINT = ("scene", "cameras", "view", "size", "config", FITTED)
 NAMED = ("scene", "view", "config")  # of these, what every point has
 
 
@@ -60,13 +66,14 @@ class Point:
 
     def machine(self) -> tuple:
         """Equal for points that have been asked for with the same configuration."""
-        return self.asked["config"], *sorted(self.settings.items())
+        return self.asked["config"], FITTED in self.asked, *sorted(self.settings.items())
 
     def command(self) -> str:
         words = ["streaminggs", "simulate", self.asked["scene"], "--config", self.asked["config"]]
         for name in ("cameras", "view", "size"):
             if value := self.asked.get(name):
                 words += [f"--{name}", value]
+        words += ["--fit-memories"] if FITTED in self.asked else []
         for key, value in self.settings.items():
             words += ["--set", f"{key}={value}"]
         return shlex.join(words)
@@ -87,7 +94,10 @@ def is_result(point: Point) -> bool:
         point.status in STATUSES
         and all(name in point.asked for name in NAMED)
         and all(isinstance(n, (int, float)) and not isinstance(n, bool) for n in numbers)
-        and (point.status != DONE or all(path in point.told for path in NEEDED))
+        and (
+            point.status != DONE
+            or (all(path in point.told for path in NEEDED) and point.told["frame.fps"] > 0)
+        )
     )
 
 
@@ -132,25 +142,37 @@ def number_in(text: str) -> object:
         return text
 
 
+def is_fitted(key: str) -> bool:
+    return key.startswith("sram.") and key != "sram.codebook_bytes"
+
+
 def read_table(path: pathlib.Path) -> list[Point]:
-    """Settings are those that the table shows, the model's choices among them. Raises
-    ValueError."""
+    """Settings are those that the table shows, the model's choices among them, but no size of a
+    fitted memory. Raises ValueError."""
     head, rows = read_csv(path)
     missing = [name for name in (*NAMED, "status", *NEEDED) if name not in head]
     if missing:
         raise ValueError(
             f"{path}: no column {', '.join(missing)}; expected a table of `streaminggs sweep --csv`"
         )
-    keys = head[head.index("config") + 1 : head.index("status")]
+    keys = [key for key in head[head.index("config") + 1 : head.index("status")] if key != FITTED]
     points = []
     for number, row in enumerate(rows, start=2):
         cells = {name: cell for name, cell in zip(head, row) if cell}
-        settings = {key: cells[key] for key in keys if key in cells}
+        settings = {
+            key: cells[key]
+            for key in keys
+            if key in cells and not (FITTED in cells and is_fitted(key))
+        }
         point = Point(
             {name: cells[name] for name in OF_POINT if name in cells},
             settings,
             cells.get("status", ""),
-            told={name: number_in(cells[name]) for name in PATHS if name in cells},
+            told={
+                path: number_in(cells[column])
+                for path, column in ((path, MEMORIES.get(path, path)) for path in PATHS)
+                if column in cells
+            },
             resolved=settings,
         )
         if not is_result(point):
@@ -187,8 +209,7 @@ def psnr_db(point: Point) -> float:
 
 
 def sram_kb(point: Point) -> float:
-    names = (f"sram.{memory}_available_bytes" for memory in MEMORIES)
-    return sum(point.told.get(name, 0) for name in names) / 1e3
+    return sum(point.told.get(path, 0) for path in MEMORIES) / 1e3
 
 
 def binds(points: Sequence[Point]) -> str:
@@ -196,8 +217,10 @@ def binds(points: Sequence[Point]) -> str:
 
 
 # What a machine comes to on one case or on several: work is summed, of the rest the worst counts.
+TIME = "ms"
 PICTURE = "PSNR dB"
 MEASURES: dict[str, Callable[[Sequence[Point]], float]] = {
+    TIME: lambda points: sum(1e3 / point.told["frame.fps"] for point in points),
     "cycles": lambda points: total(points, "frame.cycles"),
     "fps": lambda points: min(point.told["frame.fps"] for point in points),
     "mJ": lambda points: 1e3 * total(points, "energy.total_j"),
@@ -205,9 +228,11 @@ MEASURES: dict[str, Callable[[Sequence[Point]], float]] = {
     "mm2 with PHY": lambda points: max(point.told.get(WITH_PHY, math.nan) for point in points),
     PICTURE: lambda points: min(map(psnr_db, points)),
     "DRAM MB": lambda points: sum(point.told.get("dram.bytes", 0) for point in points) / 1e6,
+    "bus MB": lambda points: sum(point.told.get("dram.bus_bytes", math.nan) for point in points)
+    / 1e6,
     "SRAM KB": lambda points: max(map(sram_kb, points)),
 }
-COSTS = ("cycles", "mm2", "mJ")  # that the front is of, with the picture where pictures differ
+COSTS = (TIME, "mm2", "mJ")  # that the front is of, with the picture where pictures differ
 MOST_REASONS = 200  # of points that were not done
 
 
@@ -219,7 +244,9 @@ class Machine:
 
     @property
     def settings(self) -> dict[str, str]:
-        return {"config": self.points[0].asked["config"], **self.points[0].settings}
+        asked = self.points[0].asked
+        given = {name: asked[name] for name in ("config", FITTED) if name in asked}
+        return {**given, **self.points[0].settings}
 
     def value(self, name: str) -> float:
         return MEASURES[name](self.points)
@@ -295,9 +322,7 @@ def section(machines: Sequence[Machine], title: str, most: int) -> str:
     """So many of them: those on the front first, the fastest at the top."""
     costs = [[machine.value(cost) for cost in COSTS] for machine in machines]
     best = pareto_front(with_pictures(costs, [machine.value(PICTURE) for machine in machines]))
-    order = sorted(
-        range(len(machines)), key=lambda at: (not best[at], machines[at].value("cycles"))
-    )
+    order = sorted(range(len(machines)), key=lambda at: (not best[at], machines[at].value(TIME)))
     shown = [machines[at] for at in order][:most]
     table = table_of(shown, [best[at] for at in order], title)
     left = len(machines) - len(shown)

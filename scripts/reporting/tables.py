@@ -7,7 +7,7 @@ import json
 from collections.abc import Sequence
 
 from reporting import charts
-from reporting.charts import escaped, number
+from reporting.charts import escaped, number, rate
 from reporting.costs import KINDS_OF_ENERGY, WAYS, kinds_of_energy, ways_of_bytes
 from reporting.folder import Run, Table, ViewFiles
 from tables import REQUIRED, measure_of
@@ -242,8 +242,8 @@ def traffic_of_views(runs: Sequence[Run]) -> str:
 
 
 def table_of_views(runs: Sequence[Run]) -> Table:
-    head = ("run", "scene", "view", "px", "fps", "cycles", "PSNR", "DRAM MB", "mJ", "W", "mm2")
-    head += ("mm2 with PHY", "binds")
+    head = ("run", "scene", "view", "px", "fps", "cycles", "PSNR", "DRAM MB", "bus MB", "mJ", "W")
+    head += ("mm2", "mm2 with PHY", "binds")
     rows = []
     for run in runs:
         for files in run.shown():
@@ -255,10 +255,11 @@ def table_of_views(runs: Sequence[Run]) -> Table:
                     view["scene"]["name"],
                     str(view["view"]),
                     f"{frame['width_px']}x{frame['height_px']}",
-                    number(frame["fps"]),
+                    rate(frame["fps"]),
                     number(frame["cycles"]),
                     quality(view),
                     number(view["dram"]["bytes"] / 1e6),
+                    number(view["dram"]["bus_bytes"] / 1e6),
                     number(1e3 * energy["total_j"]),
                     number(energy["mean_power_w"]),
                     number(view["area_mm2"]["total"]),

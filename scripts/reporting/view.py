@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from reporting import charts, costs
-from reporting.charts import escaped, number, percent, size_of
+from reporting.charts import escaped, number, percent, rate, size_of
 from reporting.folder import ViewFiles, flat
 
 
@@ -29,7 +29,7 @@ def key_numbers(view: dict) -> str:
     more = mm2_with_phy(view)
     joules, squares = energy["bands"]["total_j"], area["bands"]["total"]
     cards = (
-        ("frames a second", number(frame["fps"]), f"{number(frame['cycles'])} cycles"),
+        ("frames a second", rate(frame["fps"]), f"{number(frame['cycles'])} cycles"),
         (
             "PSNR",
             quality(view),
@@ -38,6 +38,7 @@ def key_numbers(view: dict) -> str:
         (
             "DRAM",
             f"{number(dram['bytes'] / 1e6)} MB",
+            f"{number(dram['bus_bytes'] / 1e6)} MB on the bus; "
             f"{number(view['limit']['ratio'])} x once; {percent(dram['of_peak'])} of peak",
         ),
         (

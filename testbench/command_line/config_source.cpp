@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <string_view>
 
 #include "algorithm/files/input_error.h"
@@ -58,8 +59,12 @@ std::string ConfigSource::name() const { return std::filesystem::path(path()).st
 
 std::string ConfigSource::in_words() const {
   std::string what = config.empty() ? "defaults" : name();
-  if (!overrides.empty()) {
-    what += fmt::format(" + {} setting{}", overrides.size(), overrides.size() == 1 ? "" : "s");
+  std::set<std::string> keys;  // the last of one key's settings holds
+  for (const std::string& assignment : overrides) {
+    keys.insert(assignment.substr(0, assignment.find('=')));
+  }
+  if (!keys.empty()) {
+    what += fmt::format(" + {} setting{}", keys.size(), keys.size() == 1 ? "" : "s");
   }
   return fit_memories ? what + ", memories fitted" : what;
 }

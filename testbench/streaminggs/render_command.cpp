@@ -45,8 +45,10 @@ ConfigSource completed(ConfigSource config, const std::string& ordering) {
   return config;
 }
 
-void say_of_contributions(bool any) {
-  if (!any) fmt::print("no Gaussian contributes to the picture\n");
+// contributes: whether any Gaussian does.
+void say_what_was_drawn(const std::string& out, bool contributes) {
+  if (!contributes) fmt::print("no Gaussian contributes to the picture\n");
+  fmt::print("written to {}\n", out);
 }
 
 void render_reference_picture(const RenderArguments& arguments) {
@@ -61,8 +63,9 @@ void render_reference_picture(const RenderArguments& arguments) {
   const View<float> view = make_view<float>(arguments.camera(scene.cameras));
   const RenderResult drawn = render_reference(view, cloud);
   write_image(arguments.out, drawn.image);
-  say_of_contributions(std::any_of(drawn.contributors.begin(), drawn.contributors.end(),
-                                   [](std::uint32_t splats) { return splats > 0; }));
+  say_what_was_drawn(arguments.out,
+                     std::any_of(drawn.contributors.begin(), drawn.contributors.end(),
+                                 [](std::uint32_t splats) { return splats > 0; }));
 }
 
 // The picture that a machine must give, and what its order loses.
@@ -92,7 +95,7 @@ void render_golden_picture(const RenderArguments& arguments, const Kinds& kinds)
   write_image(arguments.out, golden.image);
   fmt::print("missed {} (group, splat) pairs\nmisordered {} of {} blends\n", golden.missed,
              golden.misordered, golden.blends);
-  say_of_contributions(golden.contributing > 0);
+  say_what_was_drawn(arguments.out, golden.contributing > 0);
 }
 
 }  // namespace

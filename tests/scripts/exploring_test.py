@@ -156,7 +156,8 @@ class Exploring(Explorations):
         self.assertEqual(done.returncode, 0, done.stderr)
         head, *rows = self.rows("explore.csv")
         columns = [
-            head.index(name) for name in ("hfus", "sum(cycles)", "mm2 <= 3", "min(fps) >= 1", "holds")
+            head.index(name)
+            for name in ("hfus", "sum(cycles)", "mm2 <= 3", "min(fps) >= 1", "holds")
         ]
         self.assertEqual(
             [[row[n] for n in columns] for row in rows],
@@ -172,7 +173,9 @@ class Exploring(Explorations):
     def test_where_none_holds_the_nearest_is_named(self):
         done = self.explore("finish()", "--axis", "hfus=2,4", "--require", "min(fps) >= 5")
         why = "2 too slow (min(fps) >= 5); the nearest misses min(fps) >= 5 by 20.0%"
-        self.assertRegex(done.stdout, rf"\n\nNone of 2 holds: {re.escape(why)}: hfus=4\.\n*\Z")
+        self.assertRegex(
+            done.stdout, rf"\n\nNone of 2 holds: {re.escape(why)}: hfus=4\.\n+written to .*\n\Z"
+        )
         self.assertIn(f"[2/2] none of 2 holds yet: {why}", done.stderr)
         self.assertTrue(
             done.stderr.endswith(f"explore.py: none of 2 holds: {why}: hfus=4\n"), done.stderr
@@ -189,7 +192,13 @@ class Exploring(Explorations):
         """Memory is as large as any view needs; what is chosen for a scene is its own."""
         cameras = self.scene.with_suffix(".json")
         cameras.write_text(json.dumps(2 * json.loads(cameras.read_text())))
-        self.explore("finish()", "--axis", "hfus=2,4", "--view", "0,1")
+        done = self.explore("finish()", "--axis", "hfus=2,4", "--view", "0,1")
+        path = self.folder / "explore_best.json"
+        again = f"streaminggs simulate {self.scene} --config {path} --cameras {cameras} --view 0"
+        self.assertTrue(
+            done.stdout.endswith(f"\nwritten to {self.folder}\nbest: {path}: {again}\n"),
+            done.stdout,
+        )
         best = json.loads((self.folder / "explore_best.json").read_text())
         self.assertEqual((best["hfus"], best["sram"]["input_bytes"]), (4, 401))
         done = self.explore("finish()", "--axis", "hfus@each=2,4")
@@ -300,7 +309,11 @@ class Drawing(Explorations):
         done = self.explore("finish()", *words, "--objectives", "mean(cycles)")
         self.assertEqual((done.returncode, "no figure" in done.stderr), (0, False), done.stderr)
         text = (self.folder / "exploration.svg").read_text()
-        for said in ("required: min(fps) &gt;= 3", "required: mm2 &lt;= 6", "M cycles against area"):
+        for said in (
+            "required: min(fps) &gt;= 3",
+            "required: mm2 &lt;= 6",
+            "M cycles against area",
+        ):
             self.assertIn(said, text)
         self.assertIn("min(fps) against area", text)
         words = ("--axis", "hfus=2,4,8", "--require", "min(fps) >= 3", "--objectives", "cycles")
@@ -315,7 +328,9 @@ class Drawing(Explorations):
         # One number alone has nothing to be drawn against; that is no failure.
         done = self.explore("finish()", "--axis", "hfus=2,4")
         self.assertEqual((done.returncode, list(self.folder.glob("exploration.*"))), (0, []))
-        self.assertIn("no figure: skipped exploration: columns hfus, group, sum(cycles)", done.stderr)
+        self.assertIn(
+            "no figure: skipped exploration: columns hfus, group, sum(cycles)", done.stderr
+        )
 
     def test_filters_are_drawn_as_a_map(self):
         axes = ("--axis", "hfu.cfus=1,2", "--axis", "hfu.ffu_lanes=8,16")

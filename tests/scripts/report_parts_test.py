@@ -42,6 +42,12 @@ class Parts(unittest.TestCase):
         width, height, rows = charts.read_png(filtered_png(7, 10, pixels))
         self.assertEqual((width, height, b"".join(rows)), (7, 10, pixels))
 
+    def test_frame_rates_are_rounded_down(self):
+        """As the terminal's: numbers_test has the same."""
+        rates = [89.649, 89.96, 99.99, 1 / (1 / 90), 1 / (1 / 89.7), 100, 1234.9]
+        told = ["89.6", "89.9", "99.9", "90.0", "89.7", "100", "1,234"]
+        self.assertEqual([charts.rate(rate) for rate in rates], told)
+
     def test_pictures_are_halved(self):
         pixels = bytes(
             channel

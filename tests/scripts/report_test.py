@@ -109,7 +109,7 @@ class Page(WithFrames):
         whole = json.loads(text)
         summary = whole["summary"]
         slowest = summary["worst_frame"]
-        self.assertHolds(page, f"worst {summary['worst_fps']:.0f} (frame {slowest})")
+        self.assertHolds(page, f"worst {charts.rate(summary['worst_fps'])} (frame {slowest})")
         self.assertHolds(page, f"frame {slowest}, the slowest")
         self.assertHolds(page, charts.escaped(whole["views"][slowest]["binding"]["explanation"]))
         self.assertFalse("hold no Gaussian" in page)

@@ -386,6 +386,49 @@ class Recipes(InFolder):
         )
 
 
+class SoFar(unittest.TestCase):
+    """What progress says of a search that looks at some views first."""
+
+    def test_what_holds_so_far_is_said_before_what_is_missed(self):
+        task = Task(
+            tuple((scene, view) for scene in SCENES for view in (0, 1)),
+            ("hfus",),
+            *("", "", ()),
+            (objective("mm2"),),
+            (requirement("min(fps) >= 90"),),
+        )
+        record = Record(task, {})
+
+        def add(hfus: int, mm2: float, violation: float, drawn: int) -> None:
+            dropped = "" if drawn == 4 else f"{drawn} of 4 views were looked at"
+            told = {"values": (90.0,), "settings": {"hfus": hfus}, "dropped": dropped}
+            record.add(
+                Judged((f"hfus={hfus}",), (mm2,), **told, violations=(violation,), drawn=drawn)
+            )
+
+        add(1, 1.5, 0.1, 1)
+        said = "1 too slow (min(fps) >= 90)"
+        miss = "the nearest misses min(fps) >= 90 by 10.0% or more, not judged on all views"
+        self.assertEqual(record.so_far(), f"none of 1 holds yet: {said}; {miss}")
+        add(2, 2.25, -0.1, 1)
+        add(4, 2.5, -0.1, 3)
+        self.assertEqual(
+            record.so_far(),
+            "holds so far on 3 of 4 views: mm2 2.5, hfus=4; "
+            f"of 3 {said}, 2 not judged on all views",
+        )
+        add(4, 2.5, -0.1, 4)
+        self.assertEqual(
+            record.so_far(), "1 holds, 1 not judged on all views; 1 on the front, mm2 2.5"
+        )
+        about = (
+            "3 configurations, of which 1 holds min(fps) >= 90; 1 of them no other one beats.\n\n"
+        )
+        self.assertEqual(
+            record.about(), about + "Not judged on all views, though none is missed so far: 1."
+        )
+
+
 class Fronts(unittest.TestCase):
     def judged(self, *of: tuple[float, float]) -> list[Judged]:
         """Of cycles and the picture's dB."""

@@ -17,13 +17,13 @@ from chromium import NEEDS_BROWSER, Chromium, PageChecks
 from reporting.sweep import read_sweep
 
 
-def line(cycles, mm2, joules, status="done", technology="32 nm", **more) -> str:
+def line(cycles, mm2, joules, status="done", technology="32 nm", clock_hz=1e9, **more) -> str:
     """A result as `sweep` writes it. more: of the point."""
     point = {"scene": "s", "view": 0, "config": "exact", "set": {"hfus": 2}, **more}
     result = {"key": "0", "status": status, "point": point}
     if status == "done":
         result["report"] = {
-            "frame": {"cycles": cycles, "fps": 1e9 / cycles},
+            "frame": {"cycles": cycles, "fps": clock_hz / cycles},
             "energy": {"total_j": joules},
             "area_mm2": {"total": mm2},
             "image": {"psnr_db": None},
@@ -48,7 +48,35 @@ class Read(InFolder):
         status, said, _ = self.ended(report, str(path))
         return status, said if status else path.with_suffix(".html").read_text()
 
-    def test_the_front_is_of_cycles_area_and_energy(self):
+    def test_of_two_clocks_the_slower_machine_is_on_no_front(self):
+        """Though it takes fewer cycles; the fastest stands first."""
+        slow = line(100, 5, 1, clock_hz=1e9, set={"clock_mhz": 1000})
+        fast = line(150, 5, 1, clock_hz=2e9, set={"clock_mhz": 2000})
+        status, page = self.page(slow + fast)
+        self.assertEqual(status, 0)
+        facts = json.loads(html.unescape(re.search('data-points="([^"]*)"', page)[1]))
+        self.assertEqual(facts["labels"], ["clock_mhz 2000", "clock_mhz 1000"])
+        self.assertEqual(facts["best"], [True, False])
+        self.assertIn("no other point is better in ms and mm2 and mJ", page)
+
+    def test_memory_that_is_built_is_shown_and_bytes_on_the_bus(self):
+        told = json.loads(line(100, 5.0, 1.0))
+        sram = {"input_bytes": 3000, "input_available_bytes": 9000, "shared_bytes": 500}
+        told["report"] |= {"sram": sram, "dram": {"bytes": 1000, "bus_bytes": 2000}}
+        path = self.folder / "sweep.jsonl"
+        path.write_text(json.dumps(told) + "\n")
+        machine = sweep.Machine(tuple(read_sweep(path)))
+        self.assertEqual([machine.value(name) for name in ("SRAM KB", "bus MB")], [3.5, 0.002])
+
+    def test_fitted_memories_are_part_of_the_command_and_of_the_machine(self):
+        path = self.folder / "sweep.jsonl"
+        path.write_text(line(9, 1, 1) + line(9, 1, 1, fit_memories=True))
+        plain, fitted = read_sweep(path)
+        self.assertEqual(
+            fitted.command(), plain.command().replace(" --set", " --fit-memories --set")
+        )
+
+    def test_the_front_is_of_time_area_and_energy(self):
         points = [
             *((100, 5.0, 1.0), (200, 4.0, 1.0), (300, 4.5, 0.5)),  # each best in something
             *((200, 5.0, 1.0), (300, 4.5, 0.6)),
@@ -59,8 +87,8 @@ class Read(InFolder):
         facts = json.loads(html.unescape(re.search('data-points="([^"]*)"', page)[1]))
         self.assertEqual(facts["best"], [True] * 3 + [False] * 2)
         self.assertEqual(facts["labels"], [f"hfus {at}" for at in (0, 1, 2, 3, 4)])
-        at = [facts["names"].index(name) for name in ("cycles", "mm2", "mJ")]
-        expected = [[cycles, mm2, 1e3 * joules] for cycles, mm2, joules in points]
+        at = [facts["names"].index(name) for name in ("ms", "cycles", "mm2", "mJ")]
+        expected = [[float(f"{c / 1e6:.6g}"), c, mm2, 1e3 * j] for c, mm2, j in points]
         self.assertEqual([[values[i] for i in at] for values in facts["points"]], expected)
 
     def test_the_picture_counts_where_pictures_differ(self):
@@ -174,35 +202,41 @@ class Read(InFolder):
 
 @unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")
 class WithSweep(InFolder):
-    def swept(self) -> pathlib.Path:
+    def swept(self, *more: str) -> pathlib.Path:
         out = self.folder / "sweep.jsonl"
         words = [COMMAND, "sweep", str(self.scene), "--out", str(out), "--size", "64x36", "-j", "1"]
         words += ["--cameras", str(self.scene.with_suffix(".json")), "--axis", "hfus=2,4"]
         words += ["--axis", "rendering.ellipse_test=true,false", "--set", "group_width_px=32"]
-        words += ["--csv", str(out.with_suffix(".csv"))]
+        words += ["--csv", str(out.with_suffix(".csv")), *more]
         subprocess.run(words, check=True, capture_output=True)
         return out
 
 
 class OfTheCommand(WithSweep):
     def test_a_point_is_run_again_by_its_command(self):
-        out = self.swept()
-        for path in (out, out.with_suffix(".csv")):
-            for point in read_sweep(path):
-                with self.subTest(path=path.name, command=point.command()):
-                    _, *words = shlex.split(point.command())
-                    again = self.folder / "again"
-                    if "--cameras" not in words:  # a table does not say
-                        words += ["--cameras", str(self.scene.with_suffix(".json"))]
-                    done = subprocess.run(
-                        [COMMAND, *words, "--out", str(again)], capture_output=True, text=True
-                    )
-                    self.assertEqual(done.returncode, 0, done.stderr)
-                    (view,) = json.loads((again / "report.json").read_text())["views"]
-                    self.assertEqual(view["frame"]["cycles"], point.told["frame.cycles"])
-                    self.assertEqual(view["area_mm2"]["total"], point.told["area_mm2.total"])
-                    for key in ("hfus", "rendering.ellipse_test"):
-                        self.assertEqual(point.resolved[key], point.settings[key])
+        for more in ((), ("--fit-memories",)):
+            out = self.swept(*more)
+            for path in (out, out.with_suffix(".csv")):
+                for point in read_sweep(path):
+                    self.assertEqual("--fit-memories" in point.command(), bool(more))
+                    self.assertRunsAgain(point)
+            out.unlink()
+
+    def assertRunsAgain(self, point: sweep.Point):
+        with self.subTest(command=point.command()):
+            _, *words = shlex.split(point.command())
+            again = self.folder / "again"
+            if "--cameras" not in words:  # a table does not say
+                words += ["--cameras", str(self.scene.with_suffix(".json"))]
+            done = subprocess.run(
+                [COMMAND, *words, "--out", str(again)], capture_output=True, text=True
+            )
+            self.assertEqual(done.returncode, 0, done.stderr)
+            (view,) = json.loads((again / "report.json").read_text())["views"]
+            self.assertEqual(view["frame"]["cycles"], point.told["frame.cycles"])
+            self.assertEqual(view["area_mm2"]["total"], point.told["area_mm2.total"])
+            for key in ("hfus", "rendering.ellipse_test"):
+                self.assertEqual(point.resolved[key], point.settings[key])
 
 
 @NEEDS_BROWSER
@@ -243,7 +277,7 @@ class InTheBrowser(WithSweep, PageChecks):
         for _ in range(4):
             browser.press("ArrowRight", 39)
         reading = browser.value("document.querySelector('[data-points] output').textContent")
-        self.assertRegex(reading, "^hfus .*: cycles [0-9,]+, mm2 [0-9.]+, mJ [0-9.]+$")
+        self.assertRegex(reading, "^hfus .*: ms [0-9.]+, mm2 [0-9.]+, mJ [0-9.]+$")
         browser.press("Enter", 13)
         self.assertIn(reading.partition(":")[0], browser.value(title))
         self.assertEqual(browser.value("document.activeElement.tagName"), "H4")

@@ -57,7 +57,7 @@ TEST_CASE("command line: options and their values") {
             "&& "
             "cat t",
             {"view        px  PSNR dB     SSIM = streaming renderer        cycles     fps  DRAM MB "
-             "      mJ\n",
+             "  bus MB       mJ\n",
              "\nview 0: ", "\nview 0: energy ", "\n  DRAM region ", "\n  frame_buffer ",
              " mm2 at 32 nm; ", " with PHY and controller of lpddr3_1600\n"}},
            {"$SG simulate $B --verbose --out o",
@@ -100,7 +100,8 @@ TEST_CASE("command line: options and their values") {
            {"$SG simulate $B --path builtin:path --frames 2 --out o >t && ! grep late t", {}},
            {"$SG simulate $B --path builtin:path --frames 2 --frame-rate 1e6 --out o",
             {"\n2 of 2 frames take longer than 1/1e+06 s: the next one begins late\n"}},
-           {"$SG render $B --out new/folder/a.png && ls new/folder", {"a.png"}},
+           {"$SG render $B --out new/folder/a.png && ls new/folder",
+            {"written to new/folder/a.png\na.png"}},
            {"$SG render --help", {"if not given, the one of the ordering's name"}},
            {"$SG simulate --help", {"--stalls FLOAT:in [0, 1]", "probability, as 0.1,"}},
            {"$SG pack --help | grep SCENE", {"builtin:NAME?n=COUNT"}},

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -28,6 +29,13 @@ inline void print_fact(const std::string& name, const std::string& value) {
 inline std::string in_words(const Extent& extent) {
   return fmt::format("{:.4g} {:.4g} {:.4g} .. {:.4g} {:.4g} {:.4g} (world units)", extent.min.x,
                      extent.min.y, extent.min.z, extent.max.x, extent.max.y, extent.max.z);
+}
+
+// A frame rate, rounded down: 89.96 holds no 90. 89.649 -> "89.6", 1234.9 -> "1,234"
+inline std::string rate_in_words(double fps) {
+  constexpr double kOfRounding = 1 + 1e-12;
+  if (fps >= 100) return grouped(static_cast<std::uint64_t>(fps * kOfRounding));
+  return fmt::format("{:.1f}", std::floor(10 * fps * kOfRounding) / 10);
 }
 
 }  // namespace sgs

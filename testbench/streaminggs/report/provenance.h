@@ -23,7 +23,10 @@ std::string digest_of_files(const std::vector<std::string>& paths);
 // All that a picture depends on of a camera, and its name, as a text.
 std::string text_of(const Camera& camera);
 
-// This process' command line, its arguments separated by spaces.
+// A word as a shell takes it: in quotes where it holds more than letters, digits and @%+=:,./-_
+std::string quoted_for_shell(const std::string& word);
+
+// This process' command line, as a shell takes it.
 std::string command_line();
 
 // Largest resident set of this process and of those that it has waited for.

@@ -84,11 +84,10 @@ void visit_scene(ReportVisitor& r, const PreparedScene& scene) {
     scene.stored.gaussians);
   r("sh_degree", "0..3", "Degree of the stored colours.", layout.sh_degree());
   r("dropped_invalid", "", "Gaussians that `--drop-invalid` left out.", scene.dropped_invalid);
-  if (r.has(!scene.axes.empty())) {
-    r("axes", "",
-      "Where x, y and z of the file point, before the scene was turned to right, down, forward.",
-      scene.axes);
-  }
+  r("axes", "",
+    "Where x, y and z of the file point, before the scene was turned to right, down, forward; `as "
+    "stored`: it was not turned.",
+    scene.axes.empty() ? "as stored" : scene.axes);
   r("stored_by", "", "Storage order: `chunks`, `voxels` or `file`.", scheme.name());
   if (r.telling()) {
     for (const StorageScheme* any : {&voxel_scheme(), &chunk_scheme(), &file_scheme()}) {

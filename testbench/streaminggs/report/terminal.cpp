@@ -38,8 +38,8 @@ void print_order_loss(const OrderLoss& loss, const GoldenFrame& golden) {
 }  // namespace
 
 void print_table_head(Detail detail) {
-  fmt::print("{:>4} {:>9} {:>8} {:>8} {:>20} {:>13} {:>7} {:>8} {:>8}", "view", "px", "PSNR dB",
-             "SSIM", "= streaming renderer", "cycles", "fps", "DRAM MB", "mJ");
+  fmt::print("{:>4} {:>9} {:>8} {:>8} {:>20} {:>13} {:>7} {:>8} {:>8} {:>8}", "view", "px",
+             "PSNR dB", "SSIM", "= streaming renderer", "cycles", "fps", "DRAM MB", "bus MB", "mJ");
   if (detail == Detail::kAll) {
     fmt::print(" {:>6} {:>7} {:>10} {:>5} {:>7}", "x once", "W", "binding", "busy", "wall s");
   }
@@ -47,12 +47,12 @@ void print_table_head(Detail detail) {
 }
 
 void print_table_line(const ViewResult& v, Detail detail) {
-  fmt::print("{:>4} {:>9} {:>8} {:>8.5f} {:>20} {:>13} {:>7} {:>8.2f} {:>8.3f}", v.view,
+  fmt::print("{:>4} {:>9} {:>8} {:>8.5f} {:>20} {:>13} {:>7} {:>8.2f} {:>8.2f} {:>8.3f}", v.view,
              fmt::format("{}x{}", v.camera.width, v.camera.height),
              std::isinf(v.psnr_db) ? "equal" : fmt::format("{:.2f}", v.psnr_db), v.ssim,
              v.equals_golden ? "yes" : "NO", grouped(v.run.cycles),
-             grouped(static_cast<std::uint64_t>(std::llround(1 / v.run.time_s()))),
-             static_cast<double>(v.run.memory.bytes) / 1e6, v.energy_j.total.middle * 1e3);
+             rate_in_words(1 / v.run.time_s()), static_cast<double>(v.run.memory.bytes) / 1e6,
+             static_cast<double>(v.run.memory.bus_bytes) / 1e6, v.energy_j.total.middle * 1e3);
   if (detail == Detail::kAll) {
     fmt::print(" {:>6.2f} {:>7.3f} {:>10} {:>4.0f}% {:>7.2f}", v.once_ratio(), v.mean_power_w(),
                v.binding.unit, 100 * v.binding.utilisation, v.run.wall_s);

@@ -193,7 +193,7 @@ void SceneArguments::refuse_reading(const std::string& what) const {
 }
 
 ViewCameras SceneArguments::all_cameras(const std::vector<Camera>& own) const {
-  if (cameras_path.empty()) return {own, {}, ""};
+  if (cameras_path.empty()) return {own, {}, "", {}};
   ViewCameras read = read_view_cameras(cameras_path);
   if (read.cameras.empty()) {
     throw InputError(fmt::format("{}: holds no cameras, expected one or more", cameras_path));

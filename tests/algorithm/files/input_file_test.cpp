@@ -77,11 +77,12 @@ TEST_CASE("json: refused with the origin, whatever it is full of") {
     std::string text, message;
   };
   for (const Row& row : std::vector<Row>{
-           {"", "file: byte 1: not JSON"},
-           {"{\"a\": 1,}", "file: byte 9: not JSON"},
-           {"[1e999]", "file: not JSON"},
-           {"[1] 2", "file: byte 5: not JSON"},
-           {"[\"\xff\"]", "file: byte 3: not JSON"},
+           {"", "file: line 1, column 1: not JSON: unexpected end of input"},
+           {"{\"a\": 1,}", "file: line 1, column 9: not JSON: unexpected '}'"},
+           {"{\n  \"a\": 1\n  \"b\": 2}", "file: line 3, column 5: not JSON: unexpected string"},
+           {"[1e999]", "file: not JSON: number overflow parsing '1e999'"},
+           {"[1] 2", "file: line 1, column 5: not JSON"},
+           {"[\"\xff\"]", "file: line 1, column 3: not JSON: invalid string"},
            {"{\"a\": 1, \"a\": 2}", "file: key 'a' twice in one object"},
            {"[{\"b\": {\"a\": 1, \"\\u0061\": 2}}]", "file: key 'a' twice in one object"},
            {"[" + deepest + "]", "file: objects and arrays in each other more than 64 deep"},

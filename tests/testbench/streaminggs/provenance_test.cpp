@@ -32,5 +32,18 @@ TEST_CASE("hash: the signs of numbers count, and how many zeros there are") {
   CHECK(xxh64(std::vector<std::byte>(63)) != xxh64(zeros));
 }
 
+TEST_CASE("command line: words as a shell takes them") {
+  struct Row {
+    const char *word, *quoted;
+  };
+  for (const Row& row : std::vector<Row>{{"hfus=2", "hfus=2"},
+                                         {"builtin:object?n=5", "'builtin:object?n=5'"},
+                                         {"my scene.ply", "'my scene.ply'"},
+                                         {"it's", "'it'\\''s'"},
+                                         {"", "''"}}) {
+    CHECK(quoted_for_shell(row.word) == row.quoted);
+  }
+}
+
 }  // namespace
 }  // namespace sgs::test
