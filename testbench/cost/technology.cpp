@@ -39,12 +39,13 @@ Band register_um2(const SramModel& model, const SramUse& use) {
 using Json = nlohmann::ordered_json;
 
 // Throws InputError unless `stated` has each number of the table: what it lacks would cost nothing.
+// A clock may stay untold.
 // Published points of the SRAM formula are in no cost. at: path of the keys.
 void check_stated(const Json& table, const std::string& at, const std::set<std::string>& stated,
                   const std::string& path) {
   for (const auto& [key, value] : table.items()) {
     const std::string place = at.empty() ? key : at + "." + key;
-    if (place == "sram.points" || key == "source") continue;
+    if (place == "sram.points" || place == "clock_mhz" || key == "source") continue;
     if (value.is_object()) {
       check_stated(value, place, stated, path);
     } else if (!value.is_string() && stated.count(place) == 0) {
@@ -167,6 +168,8 @@ void visit(ConfigVisitor& v, MemoryInterfaceCost& cost) {
 
 void visit(ConfigVisitor& v, Technology& technology) {
   v("name", technology.name, "of the node");
+  v("clock_mhz", technology.clock_mhz, in_range(0, 10000),
+    "fastest clock that the table and the depths of pipelines stand for; 0: not told");
   v.sections("parts", technology.parts, "logic, by kind");
   v.section("sram", technology.sram, "on-chip memory");
   v.section("die", technology.die, "by area");

@@ -116,6 +116,7 @@ struct MemoryInterfaceCost {
 struct Technology {
   std::string path;                       // the table's file, for messages
   std::string name;                       // the node's name
+  double clock_mhz = 0;                   // that its rows and depths of pipelines stand for; 0: any
   std::map<std::string, PartCost> parts;  // by kind
   SramModel sram;
   DieCost die;

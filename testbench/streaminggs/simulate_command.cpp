@@ -23,6 +23,7 @@
 #include "testbench/streaminggs/report/provenance.h"
 #include "testbench/streaminggs/report/result_folder.h"
 #include "testbench/streaminggs/run/camera_path.h"
+#include "testbench/streaminggs/run/clock_check.h"
 #include "testbench/streaminggs/run/path_run.h"
 #include "testbench/streaminggs/run/scene_arguments.h"
 #include "testbench/streaminggs/run/view_run.h"
@@ -225,6 +226,8 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
     setting.scene = prepare(std::move(scene), config, weighing, CodebookCache(arguments.cache));
   }
   print_what_runs(setting);
+  const std::string doubt = doubt_about_clock(config, setting.technology);
+  if (!doubt.empty()) fmt::print(stderr, "streaminggs: note: {}\n", doubt);
   const int status = path ? run_path(*path, setting, out, arguments.drop_invalid)
                           : run_views(views, setting, out, arguments.drop_invalid);
   print_notes_of_memory(config.dram.memspec, setting.detail);

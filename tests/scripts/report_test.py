@@ -184,7 +184,7 @@ class Page(WithFrames):
             (whole.replace('"units": ', '"units": [], "were": ', 1), "units: got a list, expected"),
         ):
             broken(folder / "report.json", text, whole, said)
-        broken(groups, counts + "1,2\n", counts, r"groups.csv:8: got 1,2, expected 10 counts")
+        broken(groups, counts + "1,2\n", counts, r"groups.csv:8: got 2 cells, expected 10")
         broken(groups, counts.replace(",0,", ",x,", 1), counts, "groups.csv:2: ")
         table = folder / "l.csv"
         broken(table, "a,b\n1,2\n3\n4,5\n", "a,b\n", "l.csv:3: got 1 cells, expected 2$")

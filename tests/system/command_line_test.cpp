@@ -81,7 +81,20 @@ TEST_CASE("command line: options and their values") {
             "o/report.json",
             {"gscore_lossless + 1 setting: machine gscore, blends in fp32, second halves "
              "raw\nview ",
-             "\"configuration\": \"gscore_lossless + 1 setting\""}},
+             "\"axes\": \"as stored\"", "\"configuration\": \"gscore_lossless + 1 setting\""}},
+           {"$SG simulate $B --set hfus=2 --set hfus=3 --out 'o p' >t && grep -h "
+            "'\"configuration\"\\|\"command\"' 'o p/report.json'",
+            {"\"configuration\": \"exact + 1 setting\"", " --out 'o p'\""}},
+           {"$SG simulate $B --set clock_mhz=1001 --out o 2>&1 >t",
+            {"streaminggs: note: clock_mhz 1001: depths of pipelines, areas and energies at 32 nm "
+             "stand for 1000 MHz or less"}},
+           {"$SG sweep $B --axis clock_mhz=900,1001 --out r 2>&1 >t", {"note: clock_mhz 1001: "}},
+           {"! ($SG simulate $B --set clock_mhz=1000 --out o && $SG sweep $B --axis "
+            "clock_mhz=900,1000 --out r) 2>&1 >t | grep note",
+            {}},
+           {"$SG simulate $B --out o >t && $SG simulate $B --set clock_mhz=500 --out p >t && "
+            "$SG diff o p",
+            {" ms A ", "\ntime ms  ", "\nclocks differ: time compares the runs, cycles do not\n"}},
            {"$SG simulate $B --view 2,0 --out o && ls o", {"view_0\nview_2\n"}},
            {"$SG simulate $B --view all --out o && ls o", {"view_0", "view_4"}},
            {"$SG simulate $B --out o >t && $SG simulate $B --set dram.channels=8 --out p >t && "

@@ -41,7 +41,8 @@ struct ReportDiff {
   std::vector<ConfigChange> config;
   std::vector<std::string> keys_of_a, keys_of_b;  // keys that only one has: of other machines
   std::size_t equal_keys = 0;
-  std::vector<QuantityChange> quantities;  // largest change first
+  bool clocks_differ = false;
+  std::vector<QuantityChange> quantities;  // time, then the largest change first
 };
 
 // Both outlive it. Throws InputError where they have no view in common.

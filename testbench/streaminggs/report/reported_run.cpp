@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -97,6 +98,19 @@ void add_owners(const JsonPlace& area, ReportedQuantity& to) {
   for (const auto& [owner, mm2] : area.at("by_owner").members()) add(to, owner, mm2.number());
 }
 
+// As many digits as a pose has: files of cameras that tell it in other ways differ beyond.
+std::string in_digits(const JsonPlace& place) {
+  if (place.json().is_array()) {
+    std::string text;
+    for (const JsonPlace& element : place.elements()) {
+      text += (text.empty() ? "" : " ") + in_digits(element);
+    }
+    return text;
+  }
+  constexpr double kSteps = 1e6;
+  return fmt::format("{}", std::round(place.number() * kSteps) / kSteps + 0.0);  // no -0
+}
+
 void add_facts(const JsonPlace& report, ReportedView& view) {
   const auto fact = [&](const char* kind, std::string what) {
     view.facts.emplace_back(kind, std::move(what));
@@ -107,17 +121,19 @@ void add_facts(const JsonPlace& report, ReportedView& view) {
   fact("scene", fmt::format("{}, {} Gaussians, SH degree {}, {} dropped", plain(scene.at("name")),
                             plain(scene.at("gaussians")), plain(scene.at("sh_degree")),
                             plain(scene.at("dropped_invalid"))));
-  fact("camera", fmt::format("{} ({})", plain(camera.at("id")), plain(camera.at("img_name"))));
-  // Reports of earlier programs do not say what follows.
+  // Reports of earlier programs tell the camera's name alone. A pose has other names in other
+  // files.
   if (camera.has("position")) {
-    fact("camera stands at", plain(camera.at("position")));
-    fact("camera is turned", plain(camera.at("rotation")));
+    fact("camera stands at", in_digits(camera.at("position")));
+    fact("camera is turned", in_digits(camera.at("rotation")));
     fact("focal lengths, px",
-         fmt::format("{} {}", plain(camera.at("fx_px")), plain(camera.at("fy_px"))));
+         fmt::format("{} {}", in_digits(camera.at("fx_px")), in_digits(camera.at("fy_px"))));
     fact("principal point, px",
          camera.has("cx_px")
-             ? fmt::format("{} {}", plain(camera.at("cx_px")), plain(camera.at("cy_px")))
+             ? fmt::format("{} {}", in_digits(camera.at("cx_px")), in_digits(camera.at("cy_px")))
              : "in the middle");
+  } else {
+    fact("camera", fmt::format("{} ({})", plain(camera.at("id")), plain(camera.at("img_name"))));
   }
   fact("size, px", fmt::format("{}x{}", plain(frame.at("width_px")), plain(frame.at("height_px"))));
   fact("technology", plain(provenance.at("technology")));
@@ -134,11 +150,17 @@ ReportedView read_view(const JsonPlace& report) {
   view.view = static_cast<int>(report.at("view").number());
   add_facts(report, view);
   view.cycles = report.at("frame").at("cycles").number();
+  const JsonPlace provenance = report.at("provenance");
+  // Reports of earlier programs lack it.
+  if (provenance.has("memory_image_xxh64")) {
+    view.image_hash = provenance.at("memory_image_xxh64").text();
+  }
   const JsonPlace psnr_db = report.at("image").at("psnr_db");
   view.psnr_db = psnr_db.json().is_null() ? "equal" : fmt::format("{:.2f}", psnr_db.number());
   view.equals = report.at("image").at("equals_streaming_renderer").json() == true;
   view.holds = report.at("binding").at("holds").text();
   add_units(report.at("units"), view);
+  view.of(Quantity::kTime).whole = report.at("frame").at("time_s").number();
   view.of(Quantity::kBusy).whole = view.cycles;
   add_bytes(report.at("dram"), view.of(Quantity::kBytes));
   add_costs(report.at("energy"), "_j", view.of(Quantity::kJoules));

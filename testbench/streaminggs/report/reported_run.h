@@ -24,19 +24,21 @@ struct ReportedQuantity {
   std::map<std::string, ReportedPart> parts;
 };
 
-// The whole of kBusy is the frame; that of kWaits is the mean of the activities, without idle.
+// kTime has no parts. The whole of kBusy is the frame in cycles; that of kWaits is the mean of the
+// activities, without idle.
 // kArea is by kind of part; kDieArea by owner, with PHY and controller of the memory.
-enum class Quantity { kBusy, kWaits, kBytes, kJoules, kArea, kDieArea };
-constexpr std::size_t kQuantities = 6;
+enum class Quantity { kTime, kBusy, kWaits, kBytes, kJoules, kArea, kDieArea };
+constexpr std::size_t kQuantities = 7;
 
 struct ReportedView {
   int view = 0;
   // Facts about the run beside the configuration: words for a kind of fact, and the fact.
   std::vector<std::pair<std::string, std::string>> facts;
   double cycles = 0;
-  std::string psnr_db;  // "equal" where nothing differs from the reference picture
-  bool equals = true;   // the frame is the streaming renderer's, to the byte
-  std::string holds;    // binding.holds
+  std::string image_hash;  // of the bytes loaded into the memory
+  std::string psnr_db;     // "equal" where nothing differs from the reference picture
+  bool equals = true;      // the frame is the streaming renderer's, to the byte
+  std::string holds;       // binding.holds
   std::array<ReportedQuantity, kQuantities> quantities;
   const ReportedQuantity& of(Quantity q) const { return quantities[static_cast<std::size_t>(q)]; }
   ReportedQuantity& of(Quantity q) { return quantities[static_cast<std::size_t>(q)]; }

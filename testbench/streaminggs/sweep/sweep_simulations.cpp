@@ -10,6 +10,7 @@
 
 #include "algorithm/memory/frame_buffer.h"
 #include "testbench/streaminggs/run/camera_check.h"
+#include "testbench/streaminggs/run/clock_check.h"
 
 namespace sgs {
 namespace {
@@ -56,6 +57,10 @@ SweepSimulations::SweepSimulations(const SweepPlan& plan, Technology technology,
 
 std::unique_ptr<ChildProcess> SweepSimulations::start(const SweepTask& task) {
   RunConfig config = plan_.resolved(task);
+  const std::string of_clock = doubt_about_clock(config, technology_);
+  if (!of_clock.empty() && doubts_.insert(of_clock).second) {
+    fmt::print(stderr, "streaminggs: note: {}\n", of_clock);
+  }
   const std::string of_scene =
       fmt::format("{}\n{}\n{}", task.words.scene, task.words.cameras, task.storage);
   const auto scene = scenes_.get(of_scene, [&] { return task.scene->prepared(config, progress_); });

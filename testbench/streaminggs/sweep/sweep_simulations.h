@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,7 @@ class SweepSimulations {
   const Technology technology_;
   const RunFacts facts_;
   const VqProgress progress_;
+  std::set<std::string> doubts_;  // of clocks, each said once
   RecentlyUsed<PreparedScene> scenes_;
   RecentlyUsed<ReferencePictures> references_;
   RecentlyUsed<ExpectedFrame> expected_;

@@ -21,8 +21,9 @@ struct QuantityWords {
 
 // By Quantity.
 constexpr QuantityWords kWords[kQuantities] = {
+    {"time", "ms", "", 1e3},
     {"cycles", "", "cycles that an activity works, of the frame's", 1},
-    {"waiting", "", "cycles that an activity waits, of the frame's", 1},
+    {"waiting cycles", "", "cycles that an activity waits, of the frame's", 1},
     {"bytes", "B", "bytes of the memory", 1},
     {"energy", "mJ", "energy", 1e3},
     {"area", "mm2", "area by kind of part", 1},
@@ -68,23 +69,26 @@ void print_config(const ReportDiff& diff) {
              diff.keys_of_b.size());
 }
 
+// Cycles of unlike clocks are no measure of speed.
 void print_views(const ReportDiff& diff) {
-  fmt::print("\n{:>6} {:>15} {:>15} {:>10} {:>9} {:>9}   {}\n", "view", "cycles A", "B", "change",
-             "PSNR dB A", "B", "held by");
+  const Quantity measure = diff.clocks_differ ? Quantity::kTime : Quantity::kBusy;
+  fmt::print("\n{:>6} {:>15} {:>15} {:>10} {:>9} {:>9}   {}\n", "view",
+             diff.clocks_differ ? "ms A" : "cycles A", "B", "change", "PSNR dB A", "B", "held by");
   for (const auto& [a, b] : diff.views) {
-    fmt::print("{:>6} {:>15} {:>15} {:>10} {:>9} {:>9}   {}{}\n", a->view,
-               in_words(a->cycles, Quantity::kBusy), in_words(b->cycles, Quantity::kBusy),
-               change(a->cycles, b->cycles), a->psnr_db, b->psnr_db,
+    const double in_a = a->of(measure).whole, in_b = b->of(measure).whole;
+    fmt::print("{:>6} {:>15} {:>15} {:>10} {:>9} {:>9}   {}{}\n", a->view, in_words(in_a, measure),
+               in_words(in_b, measure), change(in_a, in_b), a->psnr_db, b->psnr_db,
                a->holds == b->holds ? a->holds : a->holds + " -> " + b->holds,
-               noise_of(a->cycles, b->cycles));
+               noise_of(in_a, in_b));
   }
 }
 
-// Cycles have noise, and joules of frames of unlike cycles.
+// Time and cycles have noise, and joules of frames of unlike cycles.
 bool has_noise(Quantity quantity, const ReportDiff& diff) {
   if (diff.views.size() > 1) return false;
   const auto& [a, b] = diff.views[0];
-  return quantity == Quantity::kBusy || (quantity == Quantity::kJoules && a->cycles != b->cycles);
+  return quantity == Quantity::kTime || quantity == Quantity::kBusy ||
+         (quantity == Quantity::kJoules && a->cycles != b->cycles);
 }
 
 void print_wholes(const ReportDiff& diff) {
@@ -96,6 +100,7 @@ void print_wholes(const ReportDiff& diff) {
                in_words(q.a, q.quantity), in_words(q.b, q.quantity), change(q.a, q.b),
                has_noise(q.quantity, diff) ? noise_of(q.a, q.b) : "");
   }
+  if (diff.clocks_differ) fmt::print("clocks differ: time compares the runs, cycles do not\n");
 }
 
 // least: of the whole; what changes it by less is counted only.

@@ -206,6 +206,9 @@ TEST_CASE("cost: tables that say less than they must, or bands out of order, are
     CHECK(said.find(path + row.expected) == 0);
   }
   // What no cost is made of may be left out.
+  CHECK(load_technology(SGS_TECHNOLOGY).clock_mhz == 1000);
+  changed("/clock_mhz", {});
+  CHECK(load_technology(path).clock_mhz == 0);
   changed("/sram/points", {});
   CHECK(load_technology(path).sram.points.empty());
   changed("/parts/fp32_lane/source", {});
@@ -354,7 +357,7 @@ TEST_CASE("cost: a short memory is a macro with rows to spare, or registers if t
         const double as_registers =
             1e-6 * width * static_cast<double>(count) * model.um2_register.middle;
         // The rule of shape picks what this table makes the smaller.
-        CHECK(rows(count).in_registers() == as_registers < macro);
+        CHECK(rows(count).in_registers() == (as_registers < macro));
         CHECK(model.mm2(rows(count)).middle == Approx(std::min(as_registers, macro)));
         CHECK(model.leakage_mw(rows(count)).middle ==
               (rows(count).in_registers() ? 0 : model.leakage_mw(rows(32)).middle));

@@ -27,7 +27,7 @@ json view_of(int number) {
           {"view", number},
           {"scene", {{"name", "s"}, {"gaussians", 5}, {"sh_degree", 3}, {"dropped_invalid", 0}}},
           {"camera", {{"id", 7}, {"img_name", "front"}}},
-          {"frame", {{"cycles", 1000}, {"width_px", 64}, {"height_px", 36}}},
+          {"frame", {{"cycles", 1000}, {"time_s", 1e-6}, {"width_px", 64}, {"height_px", 36}}},
           {"image", {{"psnr_db", nullptr}, {"equals_streaming_renderer", true}}},
           {"binding", {{"holds", "dram"}}},
           {"units",
@@ -180,17 +180,61 @@ TEST_CASE("diff: by weight, quantities and parts, and units that only one run ha
   const ReportedRun a = read(scratch, "a.json", view_of(0));
   const ReportedRun b = read(scratch, "b.json", changed);
   const ReportDiff diff = diff_runs(a, b);
-  CHECK(diff.quantities[0].quantity == Quantity::kWaits);  // 1,100 of three to 400 of three
-  CHECK(diff.quantities[1].quantity == Quantity::kBusy);
-  CHECK(diff.quantities[1].ratio() == Approx(-0.5));
-  CHECK(diff.quantities[2].quantity == Quantity::kArea);
-  const auto& parts = diff.quantities[1].parts;
+  CHECK(diff.quantities[0].quantity == Quantity::kTime);
+  CHECK(diff.quantities[1].quantity == Quantity::kWaits);  // 1,100 of three to 400 of three
+  CHECK(diff.quantities[2].quantity == Quantity::kBusy);
+  CHECK(diff.quantities[2].ratio() == Approx(-0.5));
+  CHECK(diff.quantities[3].quantity == Quantity::kArea);
+  const auto& parts = diff.quantities[2].parts;
   REQUIRE(parts.size() == 3);
   CHECK(parts[0].name == "hfuN.filter");  // 400 of two to 500 of one
   CHECK((parts[0].copies_a == 2 && parts[0].copies_b == 1));
   CHECK(parts[1].name == "merge.merge");
   CHECK((parts[1].a == 0 && parts[1].copies_a == 0));
   CHECK(parts[2].name == "hfuN.load");
+}
+
+TEST_CASE("diff: runs of two clocks are compared by time") {
+  const ScratchFolder scratch;
+  const auto at_clock = [](int mhz, int cycles) {
+    json view = view_of(0);
+    view["config"]["clock_mhz"] = mhz;
+    view["frame"]["cycles"] = cycles;
+    view["frame"]["time_s"] = cycles / (1e6 * mhz);
+    return view;
+  };
+  const ReportedRun a = read(scratch, "a.json", at_clock(1000, 1000));
+  const ReportedRun b = read(scratch, "b.json", at_clock(2000, 1500));
+  const ReportDiff diff = diff_runs(a, b);
+  CHECK(diff.clocks_differ);
+  CHECK(diff.quantities[0].quantity == Quantity::kTime);
+  CHECK(diff.quantities[0].ratio() == Approx(-0.25));
+  CHECK(of(diff, Quantity::kBusy).ratio() == Approx(0.5));
+  CHECK_FALSE(diff_runs(a, a).clocks_differ);
+}
+
+TEST_CASE("diff: scenes of one name are told by their bytes, where both store alike") {
+  struct Row {
+    const char *hash, *encoding;
+    std::size_t unlike;
+  };
+  const auto stored = [](const char* hash, const char* encoding) {
+    json view = view_of(0);
+    view["provenance"]["memory_image_xxh64"] = hash;
+    view["config"]["storage"] = {{"encoding", encoding}};
+    return view;
+  };
+  for (const Row& row : std::vector<Row>{{"1", "raw", 0}, {"2", "raw", 1}, {"2", "half", 0}}) {
+    INFO(row.hash << " " << row.encoding);
+    const ScratchFolder scratch;
+    const ReportedRun a = read(scratch, "a.json", stored("1", "raw"));
+    const ReportedRun b = read(scratch, "b.json", stored(row.hash, row.encoding));
+    const std::vector<std::string> unlike = diff_runs(a, b).unlike;
+    REQUIRE(unlike.size() == row.unlike);
+    if (row.unlike > 0) CHECK(unlike[0] == "scene's bytes in DRAM, their hash: 1 | 2");
+    const ReportedRun earlier = read(scratch, "earlier.json", view_of(0));
+    CHECK(diff_runs(earlier, b).unlike.empty());
+  }
 }
 
 TEST_CASE("diff: the mean of the views that both have") {
@@ -235,7 +279,8 @@ TEST_CASE("diff: what is not of the same is said, by table") {
   const ScratchFolder scratch;
   const auto standing = [](double x) {
     json view = view_of(0);
-    const json pose = {{"position", {x, 0, 0}}, {"rotation", {}}, {"fx_px", 9}, {"fy_px", 9}};
+    const json pose = {
+        {"position", {x, 0, 0}}, {"rotation", json::array()}, {"fx_px", 9}, {"fy_px", 9}};
     view["camera"].update(pose);
     return view;
   };
@@ -243,8 +288,12 @@ TEST_CASE("diff: what is not of the same is said, by table") {
   const ReportedRun here = read(scratch, "here.json", standing(1));
   const ReportedRun there = read(scratch, "there.json", standing(2));
   CHECK(diff_runs(here, there).unlike ==
-        std::vector<std::string>{"camera stands at: [1.0,0,0] | [2.0,0,0]"});
+        std::vector<std::string>{"camera stands at: 1 0 0 | 2 0 0"});
   CHECK(diff_runs(old, here).unlike.empty());
+  json other_name = standing(1 + 1e-12);  // another file may tell the same pose so
+  other_name["camera"]["img_name"] = "frame_00000";
+  const ReportedRun renamed = read(scratch, "renamed.json", other_name);
+  CHECK(diff_runs(here, renamed).unlike.empty());
   CHECK(diff_runs(here, old).unlike.empty());
 }
 

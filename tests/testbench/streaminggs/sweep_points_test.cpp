@@ -66,7 +66,7 @@ TEST_CASE("sweep points: a line that is no point says where and what was expecte
            {"{\"view\": \"\"}", "f:3: view: got \"\", expected a text"},
            {"{\"set\": [1]}", "f:3: set: got [1], expected {\"key.path\""},
            {"{\"a\": 1, \"a\": 2}", "f:3: key 'a' twice"},
-           {"{", "f:3: byte"}}) {
+           {"{", "f:3: line 1, column 2: not JSON: "}}) {
     const std::string got = test::input_error_of([&, text = line] { parse_point(text, "f:3"); });
     INFO(got);
     CHECK(got.rfind(words, 0) == 0);
