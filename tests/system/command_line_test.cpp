@@ -209,7 +209,8 @@ TEST_CASE("command line: cameras that see next to nothing are doubted") {
            {"Expected poses from camera to world, columns right, up and backward, in"},
            behind},
           {simulate + ">t && ! grep 'in the frame' t", {}, before},
-          {"sed 's/^\\[\\(.*\\)\\]$/[\\1, \\1]/' c >p; " + simulate + "--path p --frames 2",
+          {"sed 's/^\\[\\(.*\\)\\]$/[\\1, \\1]/' c >p; $SG simulate a.ply --path p --frames 2 "
+           "--out o",
            {"\nframe 0: 0.00 % of"},
            behind},
           {"$SG sweep a.ply --cameras c --axis hfus=2 --out r 2>&1", {"a.ply " + doubt}, behind},

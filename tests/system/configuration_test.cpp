@@ -108,8 +108,8 @@ TEST_CASE(
   const std::string mine =
       scratch.write("mine.json", R"({"machine": "exact", "sram": {"shared_bytes": 400000}})");
   for (const char* command : {"simulate", "what-if"}) {
-    const Arguments words =
-        joined({command}, joined(scene, {"--config", mine, "--out", scratch.path(command)}));
+    const std::string out = scratch.path(std::string(command) + ".json");
+    const Arguments words = joined({command}, joined(scene, {"--config", mine, "--out", out}));
     CHECK_THAT(run_streaminggs(words).out,
                Contains("memories are fitted, not as given: sram.shared_bytes 400000 (" + mine));
   }
@@ -362,8 +362,12 @@ TEST_CASE("configuration: a view that fails is named, loses no other, and ends w
   const Json report = Json::parse(bytes_of(scratch.path("out/report.json")));
   REQUIRE(report["failed"].size() == 1);
   CHECK(report["failed"][0]["view"] == 1);
+  REQUIRE(run_streaminggs({"simulate", "builtin:object?n=100", "--size", "32x18", "--path",
+                           "turntable", "--frames", "2", "--out", scratch.path("path")})
+              .status == 0);
   std::set<std::string> paths;
   add_paths(report, "", paths);
+  add_paths(Json::parse(bytes_of(scratch.path("path/report.json"))), "", paths);
   check_entries(
       described_entries(run_streaminggs({"describe"}).out, "| entry of report.json of all"), paths);
   REQUIRE(report["views"].size() == 2);

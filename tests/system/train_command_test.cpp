@@ -270,7 +270,8 @@ TEST_CASE("cameras, info, train: what is undistorted, masked or not read is said
   INFO(made.out << made.err);
   CHECK(made.status == 0);
   CHECK(made.out.find("1\n1\n1\n1\n1\n1\n1\n1\n1\nd: 10 cameras have a lens (OPENCV) and are drawn "
-                      "as pinholes of its focal lengths; not read: aabb_scale\ncameras ") == 0);
+                      "as pinholes of its focal lengths; not read: aabb_scale\nwritten to "
+                      "p.pfm\ncameras ") == 0);
   CHECK(made.out.find("64x48 px (10)\n") != std::string::npos);
 }
 
