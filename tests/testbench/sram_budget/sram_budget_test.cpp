@@ -12,6 +12,7 @@
 #include "modules/machines.h"
 #include "modules/streaminggs/exact_machine.h"
 #include "testbench/builtin/open_scene.h"
+#include "testbench/command_line/config_source.h"
 #include "testbench/process/in_child.h"
 #include "testbench/result/collect.h"
 #include "testbench/result/wire.h"
@@ -30,10 +31,7 @@ struct Prepared {
   FrameJob job;
 };
 Prepared prepared(const std::string& preset, const Settings& settings) {
-  ConfigDocument document;
-  document.add_file(std::string(SGS_SOURCE_DIR) + "/testbench/configs/" + preset + ".json");
-  for (const std::string& setting : settings) document.add_override(setting);
-  RunConfig config = read_run_config(document, machine_kinds());
+  RunConfig config = read_run_config(ConfigSource{preset, settings}.document(), machine_kinds());
   config.storage.vq.iterations = 1;
   resolve(config);
   Scene scene = open_scene("builtin:object?n=64");
