@@ -120,8 +120,8 @@ GroupVisits paper_visits(const View<float>& view, const PixelRect& group, const 
   if (grid.nodes.empty()) return {};
   const GridTable nodes{grid};
   if (rays.by_coordinates) {
-    const SampleSpace space =
-        sample_space(view.position, grid.frame, occupied_cells(grid), rays.sample_step_voxels);
+    const SampleSpace space = sample_space(view.position, grid.frame, occupied_cells(grid),
+                                           rays.sample_step_voxels, rays.sample_far_voxels);
     RaysInRounds rounds(view, rays, CellSamplePath(grid.frame, space), nodes);
     return group_visits(group, rounds, table);
   }

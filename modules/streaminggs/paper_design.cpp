@@ -103,10 +103,10 @@ std::optional<PaperOrderConfig> PaperDesign::paper_order() const {
 
 std::string PaperDesign::golden_key() const {
   const PaperOrderConfig of = *paper_order();
-  return fmt::format("{}x{} {} {}/{}/{}/{} {}/{} {} {} {}", of.group.width, of.group.height,
+  return fmt::format("{}x{} {} {}/{}/{}/{}/{} {}/{} {} {} {}", of.group.width, of.group.height,
                      of.coarse_filter, of.rays.step_px, of.rays.sample_step_voxels,
-                     of.rays.side_by_side, of.rays.by_coordinates, of.table_bytes,
-                     of.line_destinations, of.visit_gaussians, of.parts,
+                     of.rays.sample_far_voxels, of.rays.side_by_side, of.rays.by_coordinates,
+                     of.table_bytes, of.line_destinations, of.visit_gaussians, of.parts,
                      static_cast<int>(of.precision));
 }
 
