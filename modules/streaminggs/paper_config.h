@@ -42,6 +42,9 @@ inline void visit(ConfigVisitor& v, PaperConfig& c) {
   visit_head(v, c);
   v("fetch", c.fetch, names<Fetch>({{"shared", Fetch::kShared}, {"split", Fetch::kSplit}}),
     "shared: one feeds all HFUs, each with its part of the group; split: each its part of a visit");
+  v("splats", c.splats,
+    names<NumberFormat>({{"fp32", NumberFormat::kSingle}, {"fp16", NumberFormat::kHalf}}),
+    "in FIFOs and sort buffers: 32-bit floats; or conic, opacity and colour in 16 bits");
   v.section("vsu", c.vsu, "voxel sorting unit");
   v.section("sorting", c.sorting, "each sorting unit");
   visit_tail(v, c);
