@@ -82,6 +82,9 @@ class MachineDesign {
   // top: that group, or a tile. 0 x 0 where there is no such thing.
   virtual PixelSize piece() const { return group(); }
 
+  // Area that its configuration says is published, mm2 of units and on-chip memories; 0: none.
+  virtual double stated_area_mm2() const { return 0; }
+
   virtual std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,
                                          const BuildOptions& options) const = 0;
 };

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "algorithm/memory/number_format.h"
 #include "algorithm/splat/splat.h"
 
 namespace sgs {
@@ -15,10 +16,19 @@ constexpr int kMaxGroupPx = 255 * 4;
 // sub-tile.
 constexpr std::uint32_t kSplatEntryBytes = 48;
 
-// group: its sub-tiles. out: kSplatEntryBytes.
-void encode_splat(const Splat& splat, const SubtileRect& group, std::byte* out);
+// kHalf: a projected Gaussian in halves (tile_records.h), depth, index, and the footprint so.
+constexpr std::uint32_t splat_entry_bytes(NumberFormat format) {
+  return format == NumberFormat::kHalf ? 36 : kSplatEntryBytes;
+}
+
+// group: its sub-tiles. out: splat_entry_bytes().
+void encode_splat(NumberFormat format, const Splat& splat, const SubtileRect& group,
+                  std::byte* out);
 
 // The footprint comes back cut to the group, which blends the same pixels of it.
-Splat decode_splat(const std::byte* bytes, const SubtileRect& group);
+Splat decode_splat(NumberFormat format, const std::byte* bytes, const SubtileRect& group);
+
+// The splat that comes back from its entry, with its whole footprint.
+Splat rounded_splat(NumberFormat format, const Splat& splat);
 
 }  // namespace sgs

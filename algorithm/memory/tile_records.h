@@ -5,12 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "algorithm/memory/number_format.h"
 #include "algorithm/splat/splat.h"
 #include "algorithm/splat/square_conic.h"
 
 namespace sgs {
-
-enum class NumberFormat : std::uint8_t { kSingle, kHalf };
 
 // Projected Gaussians. kSingle: x, y, conic, colour as 32-bit floats. With the opacity they would
 // take a second burst. One that can be seen, 1/255 to 1, is a number of 27 bits: 5 stand where the

@@ -19,6 +19,7 @@ struct RayPattern {
   // Rays of every so-many-th pixel in either direction, and of the last row and column.
   std::uint32_t step_px = 1;
   float sample_step_voxels = 0;    // 0: every cell of the ray; else the distance of samples on it
+  float sample_far_voxels = 0;     // by_coordinates: length of a ray; 0: to the end of the box
   std::uint32_t side_by_side = 1;  // rays that are followed at a time
   bool by_coordinates = false;     // the samples' own cells (cell_samples.h), not down the tree
 };

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "algorithm/memory/splat_record.h"
 #include "algorithm/render/blend_watch.h"
 #include "algorithm/render/group_shape.h"
 #include "algorithm/render/group_state.h"
@@ -45,7 +46,8 @@ bool all_saturated(const std::vector<Part>& parts) {
 
 // Splats of one visit into the parts that they reach, front to back, equal depths by slot.
 void filter_and_sort(const View<float>& view, const ActivatedCloud& cloud, const VoxelRecord& voxel,
-                     bool coarse_filter, std::vector<Part>& parts, StreamingStats& stats) {
+                     const PaperOrderConfig& config, std::vector<Part>& parts,
+                     StreamingStats& stats) {
   for (Part& part : parts) part.run.clear();
   for (std::uint32_t slot = voxel.first; slot < voxel.first + voxel.count; ++slot) {
     const Gaussian<float>& g = cloud.gaussians[slot];
@@ -53,7 +55,7 @@ void filter_and_sort(const View<float>& view, const ActivatedCloud& cloud, const
         coarse_bound(view, g.mean, std::max({g.scale.x, g.scale.y, g.scale.z}));
     const auto passes = [&](const Part& part) {
       if (part.pixels.empty()) return false;
-      return !coarse_filter || (bound.in_front && touches(bound, part.pixels));
+      return !config.coarse_filter || (bound.in_front && touches(bound, part.pixels));
     };
     std::uint32_t tests = 0;
     Splat splat;
@@ -65,7 +67,7 @@ void filter_and_sort(const View<float>& view, const ActivatedCloud& cloud, const
       if (!coloured) add_colour(view, cloud.sh_degree, g.mean, cloud.sh(slot), splat);
       coloured = true;
       splat.index = slot;
-      part.run.push_back(splat);
+      part.run.push_back(rounded_splat(config.splats, splat));
     }
     stats.coarse_passed += tests > 0 ? 1 : 0;
     stats.second_halves += tests > 0 ? 1 : 0;
@@ -103,7 +105,7 @@ void render_group(const View<float>& view, const ActivatedCloud& cloud, const Vo
     const auto plane = [&](std::uint32_t at) { return grid.cuts[at]; };
     const auto visit = [&](const VoxelRecord& piece) {
       ++stats.visits;
-      filter_and_sort(view, cloud, piece, config.coarse_filter, parts, stats);
+      filter_and_sort(view, cloud, piece, config, parts, stats);
       for (Part& part : parts) {
         blend_run(part, stats, [&](std::uint32_t slot) { contributing.set(slot); });
       }
@@ -120,8 +122,8 @@ GroupVisits paper_visits(const View<float>& view, const PixelRect& group, const 
   if (grid.nodes.empty()) return {};
   const GridTable nodes{grid};
   if (rays.by_coordinates) {
-    const SampleSpace space =
-        sample_space(view.position, grid.frame, occupied_cells(grid), rays.sample_step_voxels);
+    const SampleSpace space = sample_space(view.position, grid.frame, occupied_cells(grid),
+                                           rays.sample_step_voxels, rays.sample_far_voxels);
     RaysInRounds rounds(view, rays, CellSamplePath(grid.frame, space), nodes);
     return group_visits(group, rounds, table);
   }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "algorithm/memory/number_format.h"
 #include "algorithm/order/group_visits.h"
 #include "algorithm/render/group_state.h"
 #include "algorithm/render/render_result.h"
@@ -32,6 +33,7 @@ struct PaperOrderConfig {
   // 1/255 some hundredths of a pixel beyond the ellipse, and a splat that reaches a part only so is
   // dropped by that part's fine filter, where the filter of the whole group lets it through.
   std::uint32_t parts = 1;
+  NumberFormat splats = NumberFormat::kSingle;         // between filtering and blending
   BlendPrecision precision = BlendPrecision::kSingle;  // precision of blending and of the pixels
   SubtileTest subtile_test = SubtileTest::kEllipse;
   glm::vec3 background{0.0F};

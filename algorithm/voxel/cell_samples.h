@@ -23,12 +23,14 @@ struct SampleSpaceOf {
   glm::vec<3, T> eye;
   glm::vec<3, T> box;
   T step;  // distance of samples
+  T far;   // a ray's end, in samples from the eye
 };
 using SampleSpace = SampleSpaceOf<float>;
 
-// Throws InputError where a ray may have more samples than have numbers.
+// far_voxels: where rays end; 0: with the box. Throws InputError where a ray may have more samples
+// than have numbers.
 SampleSpace sample_space(const glm::vec3& eye, const VoxelFrame& frame, const glm::ivec3& cells,
-                         float step_voxels);
+                         float step_voxels, float far_voxels);
 
 // The samples of one ray in the box, the nearest first. Rounding keeps each coordinate monotonic
 // along the ray, so that Manhattan distance from the eye's cell rises from cell to cell, and no two
@@ -67,7 +69,7 @@ class CellSamples {
     using std::ceil;
     using std::floor;
     at_ = ceil(enter);
-    last_ = beside ? T(-1.0F) : floor(leave);
+    last_ = beside ? T(-1.0F) : floor(min_of(leave, space_.far));
   }
 
   // No sample is left. Also where the direction has no length.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/voxel/cell_samples.h"
@@ -12,7 +13,7 @@
 namespace sgs {
 namespace {
 
-constexpr unsigned kVidBits = 40, kVoxelBits = 24;  // of an entry of the hashed form
+constexpr unsigned kVidBits = 44, kVoxelBits = 20;  // of an entry of the hashed form
 constexpr unsigned kDenseBits = 24;  // of the numbers that the dense form has room for
 constexpr std::uint64_t kFree = ~std::uint64_t{0};
 constexpr std::uint32_t kNoVoxel = ~0U;
@@ -79,7 +80,7 @@ void check_numbers(const SampleSpace& space) {
     squares += farthest * farthest;
   }
   const double cells = std::sqrt(squares);
-  if (cells <= kMost * space.step) return;
+  if (std::min(cells / space.step, double{space.far}) <= kMost) return;
   throw InputError(fmt::format(
       "vsu.sample_step_voxels: got {:g}, expected at least {:.2g}: the scene reaches {:.3g} voxels "
       "from the eye, and {} samples have a number",
@@ -97,7 +98,7 @@ glm::ivec3 occupied_cells(const VoxelGrid& grid) {
 }
 
 SampleSpace sample_space(const glm::vec3& eye, const VoxelFrame& frame, const glm::ivec3& cells,
-                         float step_voxels) {
+                         float step_voxels, float far_voxels) {
   SampleSpace space;
   for (int axis = 0; axis < 3; ++axis) {
     const double at = static_cast<double>(eye[axis]) / frame.voxel_size - frame.origin_cell[axis];
@@ -105,6 +106,7 @@ SampleSpace sample_space(const glm::vec3& eye, const VoxelFrame& frame, const gl
     space.box[axis] = static_cast<float>(cells[axis]);
   }
   space.step = step_voxels;
+  space.far = far_voxels > 0 ? far_voxels / step_voxels : std::numeric_limits<float>::infinity();
   check_numbers(space);
   return space;
 }

@@ -239,6 +239,11 @@ void ConfigDocument::add_text(const std::string& text, const std::string& origin
   content_->merge(content_->root, object_of(parse_json(text, origin), origin), "", origin);
 }
 
+void ConfigDocument::add(const ConfigDocument& other) {
+  content_->merge(content_->root, other.content_->root, "", "");
+  for (const auto& [path, origin] : other.content_->origins) content_->origins[path] = origin;
+}
+
 void ConfigDocument::add_override(const std::string& assignment) {
   constexpr std::size_t kMostShownBytes = 100;
   const std::string origin = "--set " + (assignment.size() <= kMostShownBytes
@@ -272,6 +277,19 @@ void ConfigDocument::add_override(const std::string& assignment) {
 std::string ConfigDocument::text_at(const std::string& key) const {
   const auto found = content_->root.find(key);
   return found != content_->root.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+std::string ConfigDocument::take_text(const std::string& key, const std::string& expected) {
+  const auto found = content_->root.find(key);
+  if (found == content_->root.end()) return "";
+  if (!found->is_string()) {
+    throw InputError(fmt::format("{}: {}: got {}, expected {}", content_->origins[key], key,
+                                 shown(*found), expected));
+  }
+  const std::string text = found->get<std::string>();
+  content_->root.erase(found);
+  content_->origins.erase(key);
+  return text;
 }
 
 std::vector<ConfigOrigin> ConfigDocument::origins() const {

@@ -29,12 +29,18 @@ class ConfigDocument {
   void add_file(const std::string& path) { add_file(path, path); }
   void add_file(const std::string& path, const std::string& origin);
   void add_text(const std::string& text, const std::string& origin);
+  // Adds another document's values, each with its origin.
+  void add(const ConfigDocument& other);
 
   // Sets one value: "key.path=value", the value being JSON or, failing that, a plain string.
   void add_override(const std::string& assignment);
 
   // The text at a key of the top level; empty where there is none.
   std::string text_at(const std::string& key) const;
+
+  // The same, and the key is gone. InputError where something else stands there. expected: what
+  // texts are, in words.
+  std::string take_text(const std::string& key, const std::string& expected);
 
   // Origins of all values (not objects), by path.
   std::vector<ConfigOrigin> origins() const;

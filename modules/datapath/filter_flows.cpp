@@ -10,6 +10,7 @@
 #include "algorithm/splat/counting.h"
 #include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/make_splat.h"
+#include "algorithm/splat/square_conic.h"
 #include "algorithm/splat/visible_extents.h"
 
 namespace sgs {
@@ -103,6 +104,21 @@ FineFlow fine_flow(const FilterCase& tested, const FineRecord& record) {
           {flow, decoded, geometry_end, {}},
           {flow, geometry_end, test_end, {}},
           {flow, test_end, flow->size(), {}}};
+}
+
+FlowPart rounding_flow() {
+  constexpr std::size_t kBeside = 5;  // words: centre, depth, index, footprint
+  const auto flow = std::make_shared<DataFlow>();
+  const SquareConic<Counting> square =
+      square_conic(input(*flow, 0.03F), input(*flow, 0.01F), input(*flow, 0.05F));
+  const SquareConic<Counting> conic = in_units(square, axis_units(square));
+  const auto rgb = input(*flow, glm::vec3(0.1F, 0.2F, 0.3F));
+  for (const Counting& value :
+       {conic.a, conic.lean, conic.rest, input(*flow, 0.9F), rgb.x, rgb.y, rgb.z}) {
+    keep(*flow, {narrowed<CountingHalf>(value).counting()});
+  }
+  flow->pass_beside(kBeside);
+  return whole(flow);
 }
 
 }  // namespace sgs

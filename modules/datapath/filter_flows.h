@@ -41,4 +41,8 @@ struct FineFlow {
 };
 FineFlow fine_flow(const FilterCase& tested, const FineRecord& record);
 
+// Rounding of a splat behind the fine filter to the halves of its entry (splat_record.h): the
+// conic's square completed, in units of its own.
+FlowPart rounding_flow();
+
 }  // namespace sgs

@@ -87,6 +87,10 @@ void blend_pixels(const BlendInput<T, Conic>& in, PixelStates& state) {
   }
 }
 
+SquareConic<Counting> square_from_outside(DataFlow& flow) {
+  return {input(flow, -0.02F), input(flow, 0.3F), input(flow, -0.03F)};
+}
+
 }  // namespace
 
 RenderingFlows rendering_flows(BlendPrecision precision) {
@@ -152,11 +156,18 @@ FlowPart blend_of_halves_flow() {
   return {flow, 0, flow->size(), state.pixels()};
 }
 
+FlowPart conic_terms_flow() {
+  constexpr std::size_t kBeside = 5;  // words: centre, opacity and colour as halves, footprint
+  const auto flow = std::make_shared<DataFlow>();
+  const ConicTerms<Counting> terms = conic_terms(square_from_outside(*flow));
+  keep(*flow, {terms.a, terms.b, terms.c});
+  flow->pass_beside(kBeside);
+  return whole(flow);
+}
+
 FlowPart terms_of_square_flow() {
   const auto flow = std::make_shared<DataFlow>();
-  const SquareConic<Counting> square = {input(*flow, -0.02F), input(*flow, 0.3F),
-                                        input(*flow, -0.03F)};
-  const ConicTerms<Counting> terms = conic_terms(square);
+  const ConicTerms<Counting> terms = conic_terms(square_from_outside(*flow));
   const Log2Conic<Counting> conic = log2_conic(terms.a, terms.b, terms.c);
   keep(*flow, {conic.a, conic.b, conic.c});
   return whole(flow);

@@ -29,6 +29,9 @@ RenderingFlows rendering_flows(BlendPrecision precision);
 // (algorithm/memory/tile_records.h): nothing is rounded but where its centre is.
 FlowPart blend_of_halves_flow();
 
+// The terms of such a splat's conic, for its spans and for what else takes a whole splat.
+FlowPart conic_terms_flow();
+
 // Such a splat for blending in single: its conic's terms come back, and log2(e) into them.
 FlowPart terms_of_square_flow();
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "algorithm/memory/frame_buffer.h"
+#include "algorithm/memory/number_format.h"
 #include "algorithm/memory/record_split.h"
 #include "algorithm/memory/second_half.h"
 #include "algorithm/splat/rects.h"
@@ -21,6 +22,7 @@ struct BuiltFor {
   std::uint32_t first_half_bytes = 0, second_half_bytes = 0;  // the largest of any degree
   std::vector<FineRecord> fine_records;                       // one of each SH degree
   std::uint32_t chunk_gaussians = 0;                          // exact order: most in one chunk
+  NumberFormat splats = NumberFormat::kSingle;                // on their way through sorting
   MemoryPortConfig memory_port;                               // port of each unit
   OperationLatencies single, half{2, 1, 1};                   // lanes of each precision
 };

@@ -28,4 +28,16 @@ struct FifoKind {
   }
 };
 
+// One of them.
+template <class T>
+class FifoOfKind : public TimedFifo<T> {
+ public:
+  FifoOfKind(const char* name, const ClockDomain& clock, const FifoKind<T>& kind)
+      : TimedFifo<T>(name, clock, kind.entries, kind.latency_cycles), bytes_(kind.entry_bytes) {}
+  std::uint32_t entry_bytes() const override { return bytes_; }
+
+ private:
+  const std::uint32_t bytes_;
+};
+
 }  // namespace sgs

@@ -57,11 +57,13 @@ PaperFifos::PaperFifos(const PaperConfig& c)
                  c.hfu.candidate_fifo_entries,
                  c.hfu.cfu_depth_cycles,
                  "hfu.candidate_fifo_entries"},
-      splats{"splats to sorting",     "splats",
-             c.fetches() * c.lists(), c.sorting.input_fifo_entries,
-             c.hfu.ffu_depth_cycles,  "sorting.input_fifo_entries"},
+      splats{"splats to sorting",        "splats",
+             c.fetches() * c.lists(),    c.sorting.input_fifo_entries,
+             c.hfu.ffu_depth_cycles,     "sorting.input_fifo_entries",
+             splat_entry_bytes(c.splats)},
       sorted{"splats to rendering",          "splats", c.lists(),
-             c.rendering.input_fifo_entries, 1,        "rendering.input_fifo_entries"} {}
+             c.rendering.input_fifo_entries, 1,        "rendering.input_fifo_entries",
+             splat_entry_bytes(c.splats)} {}
 
 SramUses sram_uses(const PaperConfig& c, const StorageConfig& storage) {
   const BuiltFor made = built_for(c, storage);

@@ -16,6 +16,7 @@ namespace sgs {
 struct PaperConfig : StreamingConfig {
   PaperVsuConfig vsu;
   PaperSorterConfig sorting;
+  double stated_area_mm2 = 0;
 
   // The paper's memories, and the multiply-accumulates that it states.
   PaperConfig() {
@@ -42,6 +43,11 @@ inline void visit(ConfigVisitor& v, PaperConfig& c) {
   visit_head(v, c);
   v("fetch", c.fetch, names<Fetch>({{"shared", Fetch::kShared}, {"split", Fetch::kSplit}}),
     "shared: one feeds all HFUs, each with its part of the group; split: each its part of a visit");
+  v("stated_area_mm2", c.stated_area_mm2, in_range(0, 1e6),
+    "area that is published for the machine, which reports name beside its own; 0: none");
+  v("splats", c.splats,
+    names<NumberFormat>({{"fp32", NumberFormat::kSingle}, {"fp16", NumberFormat::kHalf}}),
+    "in FIFOs and sort buffers: 32-bit floats; or conic, opacity and colour in 16 bits");
   v.section("vsu", c.vsu, "voxel sorting unit");
   v.section("sorting", c.sorting, "each sorting unit");
   visit_tail(v, c);

@@ -27,7 +27,7 @@ std::uint64_t spill_bytes(const PaperConfig& config, const VoxelGrid& grid) {
   for (const VoxelRecord& voxel : grid.voxels) {
     longest = std::max<std::uint64_t>(longest, voxel.count);
   }
-  return config.lists() * 2 * longest * kSplatEntryBytes;
+  return config.lists() * 2 * longest * splat_entry_bytes(config.splats);
 }
 
 }  // namespace
@@ -96,6 +96,7 @@ std::optional<PaperOrderConfig> PaperDesign::paper_order() const {
   order.line_destinations = config_.vsu.line_destinations();
   order.visit_gaussians = config_.vsu.visit_gaussians;
   order.parts = config_.parts();
+  order.splats = config_.splats;
   order.precision = config_.rendering.precision;
   order.subtile_test = config_.rendering.ellipse_test ? SubtileTest::kEllipse : SubtileTest::kBox;
   return order;
@@ -103,11 +104,11 @@ std::optional<PaperOrderConfig> PaperDesign::paper_order() const {
 
 std::string PaperDesign::golden_key() const {
   const PaperOrderConfig of = *paper_order();
-  return fmt::format("{}x{} {} {}/{}/{}/{} {}/{} {} {} {}", of.group.width, of.group.height,
+  return fmt::format("{}x{} {} {}/{}/{}/{}/{} {}/{} {} {} {} {}", of.group.width, of.group.height,
                      of.coarse_filter, of.rays.step_px, of.rays.sample_step_voxels,
-                     of.rays.side_by_side, of.rays.by_coordinates, of.table_bytes,
-                     of.line_destinations, of.visit_gaussians, of.parts,
-                     static_cast<int>(of.precision));
+                     of.rays.sample_far_voxels, of.rays.side_by_side, of.rays.by_coordinates,
+                     of.table_bytes, of.line_destinations, of.visit_gaussians, of.parts,
+                     static_cast<int>(of.splats), static_cast<int>(of.precision));
 }
 
 GoldenFrame PaperDesign::golden(const StoredScene& scene, const FrameJob& job,
@@ -122,8 +123,10 @@ GoldenFrame PaperDesign::golden(const StoredScene& scene, const FrameJob& job,
                      voxels = std::move(visited)] {
     return render_visited_in_order(view, scene.decoded, scene.grid(), group, voxels, background);
   };
-  if (config_.rendering.precision != BlendPrecision::kSingle) {
+  if (config_.rendering.precision != BlendPrecision::kSingle ||
+      config_.splats != NumberFormat::kSingle) {
     order.precision = BlendPrecision::kSingle;
+    order.splats = NumberFormat::kSingle;
     golden.computed_exactly = [&scene, view = job.view, exactly = order] {
       return render_paper_order(view, scene.decoded, scene.grid(), exactly).frame.image;
     };

@@ -25,6 +25,7 @@ class PaperDesign : public MachineDesign {
   std::string golden_key() const override;
   std::optional<PaperOrderConfig> paper_order() const override;
   PixelSize group() const override { return config_.group(); }
+  double stated_area_mm2() const override { return config_.stated_area_mm2; }
   std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,
                                  const BuildOptions& options) const override;
 

@@ -50,17 +50,20 @@ void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& 
   const RenderingFlows flows = rendering_flows(rendering.precision);
   const bool in_half = in_16_bits(rendering.precision);
   const OperationLatencies& blending = in_half ? half : single;
+  const std::uint32_t terms =
+      config.splats == NumberFormat::kSingle ? 0 : terms_pipeline(single).depth_cycles;
   // The begun spans of a splat are written to its slot, and read for its first row.
   resolve_depth("rendering.begin_depth_cycles", rendering.begin_depth_cycles,
                 begin_pipeline(part, single), flows.spans_begin.longest_path(single), single,
-                kWriteCycles + kReadCycles, chosen);
+                terms + kWriteCycles + kReadCycles, chosen);
   resolve_depth("rendering.span_depth_cycles", rendering.span_depth_cycles,
                 span_pipeline(part, single), flows.span.longest_path(single), single, 0, chosen);
   // The conic's lanes stand ahead of the queues: their latency comes on top.
   const Datapath blend = blend_pipeline(part, blending);
   resolve_depth("rendering.depth_cycles", rendering.depth_cycles, blend,
                 flows.subtile_blend.longest_path(blending), blending,
-                conic_pipeline(part, single).depth_cycles + kReadCycles + kWriteCycles, chosen);
+                terms + conic_pipeline(part, single).depth_cycles + kReadCycles + kWriteCycles,
+                chosen);
   take("rendering.state_loop_cycles", rendering.state_loop_cycles, blend.loop_cycles,
        "subtile_blend, from a pixel's state on",
        longest_loop(flows.subtile_blend.steps(blending), blending), blending,
@@ -93,10 +96,13 @@ void resolve_filter_depths(StreamingConfig& config, const RecordSplit& split, in
   } else {
     config.hfu.cfu_depth_cycles = kReadCycles;
   }
+  const std::uint32_t rounding = config.splats == NumberFormat::kSingle
+                                     ? 0
+                                     : rounding_pipeline(config.hfu, single).depth_cycles;
   resolve_depth("hfu.ffu_depth_cycles", config.hfu.ffu_depth_cycles,
                 fine_pipeline(config.hfu, split.fine_record(sh_degree), single),
                 fine_flow(longest_case(), split.fine_record(sh_degree)).all.longest_path(single),
-                single, FineFilter::read_cycles(split.second_bytes), chosen);
+                single, FineFilter::read_cycles(split.second_bytes) + rounding, chosen);
 }
 
 }  // namespace sgs

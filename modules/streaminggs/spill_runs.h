@@ -24,7 +24,7 @@ struct SpillPort {
   RegionId region;
 };
 
-// Codec: `Entry` is the entry of a run, kBytes its size in DRAM, encode(entry, bytes) and
+// Codec: `Entry` is the entry of a run, bytes() its size in DRAM, encode(entry, bytes) and
 // decode(bytes) go between the two.
 template <class Codec>
 class SpillWriter {
@@ -33,10 +33,10 @@ class SpillWriter {
       : to_(to), codec_(codec), run_{address, 0} {}
 
   void append(const typename Codec::Entry& entry) {
-    block_.resize(block_.size() + Codec::kBytes);
-    codec_.encode(entry, block_.data() + block_.size() - Codec::kBytes);
+    block_.resize(block_.size() + codec_.bytes());
+    codec_.encode(entry, block_.data() + block_.size() - codec_.bytes());
     ++run_.entries;
-    if (block_.size() == std::size_t{to_.block_entries} * Codec::kBytes) flush();
+    if (block_.size() == std::size_t{to_.block_entries} * codec_.bytes()) flush();
   }
 
   // Sends what is left and returns the run; its bytes are in DRAM once the port is drained.
@@ -71,11 +71,11 @@ class ReverseSpillWriter {
   // Blocks lie as SpillReader reads them; each goes when its first entry has come.
   void append(const typename Codec::Entry& entry) {
     --next_;
-    const std::size_t at = next_ % to_.block_entries * Codec::kBytes;
-    if (block_.empty()) block_.resize(at + Codec::kBytes);
+    const std::size_t at = next_ % to_.block_entries * codec_.bytes();
+    if (block_.empty()) block_.resize(at + codec_.bytes());
     codec_.encode(entry, block_.data() + at);
     if (at > 0) return;
-    start_write(to_.port, to_.activity, run_.address + next_ * Codec::kBytes, block_.data(),
+    start_write(to_.port, to_.activity, run_.address + next_ * codec_.bytes(), block_.data(),
                 static_cast<std::uint32_t>(block_.size()), to_.region);
     block_.clear();
   }
@@ -94,7 +94,7 @@ class SpillReader {
   SpillReader(SpillPort from, const SpillRun& run, Codec codec)
       : from_(from), codec_(codec), run_(run) {
     for (Block& block : blocks_) {
-      block.bytes.resize(std::size_t{from.block_entries} * Codec::kBytes);
+      block.bytes.resize(std::size_t{from.block_entries} * codec_.bytes());
       request(block);
     }
     load();
@@ -125,15 +125,16 @@ class SpillReader {
     const auto count =
         static_cast<std::uint32_t>(left < from_.block_entries ? left : from_.block_entries);
     if (count == 0) return;
-    block.ticket = start_read(from_.port, from_.activity, run_.address + requested_ * Codec::kBytes,
-                              block.bytes.data(), count * Codec::kBytes, from_.region);
+    block.ticket =
+        start_read(from_.port, from_.activity, run_.address + requested_ * codec_.bytes(),
+                   block.bytes.data(), count * codec_.bytes(), from_.region);
     requested_ += count;
   }
 
   void load() {
     Block& block = blocks_[current_];
     await(from_.port, from_.activity, block.ticket);
-    front_ = codec_.decode(block.bytes.data() + taken_ % from_.block_entries * Codec::kBytes);
+    front_ = codec_.decode(block.bytes.data() + taken_ % from_.block_entries * codec_.bytes());
   }
 
   SpillPort from_;

@@ -46,6 +46,7 @@ BuiltFor built_for(const StreamingConfig& config, const StorageConfig& storage) 
     out.fine_records.push_back(split.fine_record(degree));
   }
   out.chunk_gaussians = storage.chunk_gaussians;
+  out.splats = config.splats;
   out.memory_port = config.memory_port;
   out.single = config.single_latencies();
   out.half = config.half_latencies();

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "algorithm/memory/frame_buffer.h"
+#include "algorithm/memory/number_format.h"
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/memory/storage_config.h"
 #include "algorithm/splat/constants.h"
@@ -46,7 +47,8 @@ struct StreamingConfig {
   std::uint32_t group_width_px = 32, group_height_px = 32;
   FrameFormat framebuffer = FrameFormat::kRgb8;
   std::uint32_t hfus = 4;
-  Fetch fetch = Fetch::kSplit;  // a key of paper order
+  Fetch fetch = Fetch::kSplit;                  // a key of paper order
+  NumberFormat splats = NumberFormat::kSingle;  // likewise
   std::uint32_t sorting_units = 2;
   SramConfig sram{};
   HfuConfig hfu;

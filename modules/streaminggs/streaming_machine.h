@@ -63,8 +63,7 @@ class StreamingMachine : public Machine {
   // A FIFO between two units, one of its kind.
   template <class T>
   void add_fifo(Fifos<T>& fifos, const std::string& name, const FifoKind<T>& kind) {
-    fifos.push_back(
-        std::make_unique<TimedFifo<T>>(name.c_str(), clock_, kind.entries, kind.latency_cycles));
+    fifos.push_back(std::make_unique<FifoOfKind<T>>(name.c_str(), clock_, kind));
     if (stalls_.probability > 0) fifos.back()->inject(stalls_);
     queues_.push_back({fifos.back().get(), kind.each(), kind.key});
   }

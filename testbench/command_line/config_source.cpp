@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "algorithm/files/input_error.h"
+#include "algorithm/files/nearest_name.h"
 #include "testbench/command_line/presets.h"
 
 namespace sgs {
@@ -32,7 +33,36 @@ std::vector<std::string> expanded(const std::string& assignment) {
   return {"group_width_px=" + width, "group_height_px=" + height};
 }
 
+std::string preset_words(const std::string& name) { return "preset " + name; }
+
+// The values of a file over those of the preset that is its base, if any. above: presets that are
+// being read, each with the next one as its base.
+ConfigDocument over_its_base(const std::string& path, const std::string& origin,
+                             std::vector<std::string> above) {
+  ConfigDocument own;
+  own.add_file(path, origin);
+  const std::vector<std::string> presets = preset_names();
+  const std::string base = own.take_text("base", "one of " + join(presets));
+  if (base.empty()) return own;
+  if (std::find(presets.begin(), presets.end(), base) == presets.end()) {
+    throw InputError(fmt::format("{}: base: got {}{}one of {}", origin, base,
+                                 then_expected(did_you_mean(base, presets)), join(presets)));
+  }
+  if (std::find(above.begin(), above.end(), base) != above.end()) {
+    throw InputError(
+        fmt::format("{}: base: got {}, expected a preset without it as its base", origin, base));
+  }
+  above.push_back(base);
+  ConfigDocument document = over_its_base(config_file(base), preset_words(base), above);
+  document.add(own);
+  return document;
+}
+
 }  // namespace
+
+std::string ConfigSource::preset_in_words() const {
+  return is_preset() ? preset_words(config) : "";
+}
 
 void ConfigSource::add_to(CommandLine& line, const std::string& otherwise) {
   line.file("--config", config,
@@ -72,9 +102,9 @@ std::string ConfigSource::in_words() const {
 ConfigDocument ConfigSource::document() const {
   ConfigDocument document;
   if (is_preset()) {
-    document.add_file(path(), preset_in_words());
+    document = over_its_base(path(), preset_in_words(), {config});
   } else if (!config.empty()) {
-    document.add_file(path());
+    document = over_its_base(path(), path(), {});
   }
   const std::string machine = document.text_at("machine");
   for (const std::string& assignment : overrides) {

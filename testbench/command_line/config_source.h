@@ -24,7 +24,7 @@ struct ConfigSource {
 
   bool is_preset() const;
   // A preset's name in messages, "preset exact"; empty for a file.
-  std::string preset_in_words() const { return is_preset() ? "preset " + config : ""; }
+  std::string preset_in_words() const;
 
   // The preset's name, or the file's without folder and extension; empty without one.
   std::string name() const;
@@ -32,8 +32,8 @@ struct ConfigSource {
   // The same, and what goes over it: "exact + 2 settings, memories fitted".
   std::string in_words() const;
 
-  // The file with the overrides. Throws InputError, also when a preset's machine is set to another
-  // that has a preset of its own.
+  // The file, over the preset that it names as its base, with the overrides. Throws InputError,
+  // also when a preset's machine is set to another that has a preset of its own.
   ConfigDocument document() const;
 };
 

@@ -34,7 +34,7 @@ void count_events(const PaperVsuPlan& plan, const PixelRect& group, ExpectedVisi
   if (rays.by_coordinates) {
     const SampleSpace space =
         sample_space(plan.scene.job.view.position, frame, occupied_cells(plan.scene.grid),
-                     rays.sample_step_voxels);
+                     rays.sample_step_voxels, rays.sample_far_voxels);
     count_events(plan, group, CellSamplePath(frame, space), out);
   } else if (rays.sample_step_voxels > 0) {
     count_events(plan, group, SamplePath(frame, rays.sample_step_voxels), out);

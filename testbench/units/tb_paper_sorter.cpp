@@ -22,6 +22,7 @@ struct Visit {
 
 struct Plan {
   PaperSorterConfig config;
+  NumberFormat splats = NumberFormat::kSingle;
   StreamingJob job;
   std::uint32_t hfus = 1;
   std::uint32_t first_visit = 0, visit_step = 1;
@@ -78,9 +79,11 @@ Work expected_work(const PaperSorterConfig& config, std::uint64_t n) {
   return work;
 }
 
-std::vector<Splat> sorted(const Visit& visit) {
+std::vector<Splat> sorted(const Visit& visit, NumberFormat format) {
   std::vector<Splat> all;
-  for (const auto& part : visit.from_hfu) all.insert(all.end(), part.begin(), part.end());
+  for (const auto& part : visit.from_hfu) {
+    for (const Splat& splat : part) all.push_back(rounded_splat(format, splat));
+  }
   std::sort(all.begin(), all.end(), in_front);
   return all;
 }
@@ -105,7 +108,7 @@ struct Outcome {
 // One visit's tokens as they came out.
 void check_visit(Checks& checks, const Plan& plan, std::uint32_t number, const Visit& visit,
                  const std::vector<Splat>& got, bool saturated) {
-  const std::vector<Splat> expected = sorted(visit);
+  const std::vector<Splat> expected = sorted(visit, plan.splats);
   if (saturated) {
     checks.that(got.size() <= expected.size(), fmt::format("visit {}: too many splats", number));
   } else {
@@ -124,8 +127,10 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   const auto inputs = bench.add_fifos<SplatToken>("from_hfu", plan.hfus, plan.input_entries,
                                                   plan.input_latency_cycles);
   auto& output = bench.add_fifo<SplatToken>("sorted", plan.output_entries, 1);
+  UnitContext context = bench.context(plan.job);
+  context.built_for.splats = plan.splats;
   PaperSorter unit("sorting", plan.config, {plan.first_visit, plan.visit_step, plan.job.spill},
-                   bench.context(plan.job));
+                   context);
   for (TimedFifo<SplatToken>* input : inputs) unit.splats(*input);
   unit.sorted(output);
   unit.finished(finished);
@@ -209,8 +214,9 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   bench.check_accesses("spill blocks", work.entries_spilled, work.entries_spilled);
   bench.check_accesses("sort buffers", held, held);
   check_network(bench, plan, work, held);
-  checks.equal(bench.bytes_written(), work.entries_spilled * kSplatEntryBytes, "bytes written");
-  checks.equal(bench.bytes_read(), work.entries_spilled * kSplatEntryBytes, "bytes read");
+  const std::uint32_t entry = splat_entry_bytes(plan.splats);
+  checks.equal(bench.bytes_written(), work.entries_spilled * entry, "bytes written");
+  checks.equal(bench.bytes_read(), work.entries_spilled * entry, "bytes read");
 }
 
 // The longest list that a plan's spill area holds.
@@ -241,6 +247,7 @@ void random_case(Case& test) {
   Plan plan = small_plan(1 + static_cast<int>(random() % 100), 1 + static_cast<int>(random() % 60),
                          4 * (1 + static_cast<int>(random() % 20)));
   plan.hfus = 1 + static_cast<std::uint32_t>(random() % 5);
+  plan.splats = random() % 2 == 0 ? NumberFormat::kSingle : NumberFormat::kHalf;
   plan.visit_step = 1 + static_cast<std::uint32_t>(random() % 3);
   plan.first_visit = static_cast<std::uint32_t>(random() % plan.visit_step);
   plan.input_entries = 1 + static_cast<std::uint32_t>(random() % 6);
@@ -306,9 +313,10 @@ void exact_time(Case& test, std::size_t n) {
 }
 
 void one_list(Case& test, std::uint32_t group, std::size_t n, const PaperSorterConfig& config,
-              float depth_step) {
+              float depth_step, NumberFormat splats = NumberFormat::kSingle) {
   Plan plan = small_plan();
   plan.config = config;
+  plan.splats = splats;
   plan.visits.push_back(make_visit(test.random, plan, group, n));
   for (auto& part : plan.visits.back().from_hfu) {
     for (Splat& splat : part) splat.depth *= depth_step;
@@ -359,6 +367,10 @@ int sc_main(int argc, char* argv[]) {
   add("equal depths, spilled", 1, 200, small, 0);
   // 16 entries, blocks of 4: two runs at a time; 63 runs take six passes.
   add("several merge passes", 0, 1000, small, 1);
+  // Rounded once, however often an entry is spilled.
+  runner.add_directed("several merge passes of halves", [=](Case& test) {
+    one_list(test, 0, 1000, small, 1, NumberFormat::kHalf);
+  });
   add("group cut by the frame's edge", 3, 300, small, 1);
   Plan pixel = small_plan(1, 1, 64), several = small_plan();
   pixel.config = several.config = small;

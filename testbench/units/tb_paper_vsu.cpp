@@ -309,6 +309,7 @@ void sample_rays(std::mt19937_64& random, PaperVsuPlan& plan) {
   PaperVsuConfig& config = plan.config;
   config.samples_per_cycle = 1 + static_cast<std::uint32_t>(random() % 5);
   config.sample_step_voxels = random() % 2 == 0 ? 0.5 : 1.3;
+  config.sample_far_voxels = random() % 3 == 0 ? static_cast<double>(random() % 40) : 0;
   const auto of_ray =
       static_cast<std::uint32_t>(ceil_div(macs_of_a_sampled_beginning(), config.ray_lanes));
   config.ray_depth_cycles = of_ray + static_cast<std::uint32_t>(random() % 100);

@@ -20,6 +20,7 @@ from studies.fitting import BOUNDARY_STUDY, TRAINING_CURVES
 from studies.found import FAIR_FIGHT, PRESETS
 from studies.frame_costs import BINDING_CHECK, ENERGY, TIMING
 from studies.published import PAPER_CLAIMS, PUBLISHED_FIGURES
+from studies.reproduction import REPRODUCTION
 from studies.quality import QUALITY_TABLE, VOXEL_STUDY
 from studies.variants import COMPARE_VARIANTS, HALF_BY_STAGE, WORK_PRECISION
 
@@ -85,6 +86,12 @@ class WithTheCommand(InFolder):
                 {"| cores | sum(cycles) | sum(dram_bytes) | sram_bytes | mm2 |": 1, "\n| 1 |": 1},
             ),
             (PAPER_CLAIMS, ("--size", "64x36"), {"| area, mm2 | 5.37 |": 1, "| claim |": 1}),
+            (
+                REPRODUCTION,
+                ("--size", "64x36", "--groups", "32", "--channels", "4"),
+                {"| times as fast as GSCore | 2.1 |": 2, "| truck | paper_ideal | 32 |": 1}
+                | {"| forwards | all assumptions |": 1, "| backwards | deep queues |": 1},
+            ),
             (
                 explore,
                 ("--recipe", "paper_in_area", "--size", "64x36", "--trials", "2"),

@@ -15,7 +15,7 @@ import results
 import tables
 from runs.files import content_digest
 from runs.scenes import Scene
-from studies import compare_machines, frame_costs, headline
+from studies import compare_machines, frame_costs, headline, reproduction
 from studies.cases import (
     GPU,
     Case,
@@ -384,6 +384,67 @@ class Headline(InFolder):
         made = tables.facts_of(results.TABLES, "headline")["made"]
         for name, digest in made["inputs"].items():
             self.assertEqual(content_digest(results.TABLES / name), digest, name)
+
+
+class Reproduction(unittest.TestCase):
+    def view(self, cycles: int, joules: float, psnr_db: float | None = 30.0) -> dict:
+        return {
+            "frame": {"cycles": cycles, "time_s": cycles / 1e9},
+            "energy": {"total_j": joules},
+            "image": {"psnr_db": psnr_db},
+            "area_mm2": {"total": 5.5},
+            "units": {"hfu0": {"counters": {"fine_tests": 1, "splats": 25}}}
+            | {"coarse": {"counters": {"coarse_tests_of_parts": 100}}},
+        }
+
+    def found(self, cycles: int, joules: float) -> reproduction.SceneFound:
+        """GSCore: 4 M cycles and 4 mJ."""
+        views = {"": cycles, "_no_cgf": 2 * cycles, "_no_vq_cgf": 3 * cycles}
+        return reproduction.SceneFound(
+            {variant: [self.view(count, joules)] for variant, count in views.items()},
+            [self.view(4_000_000, 4e-3, None)],
+            0.2,
+        )
+
+    def test_claims_are_of_geometric_means(self):
+        found = [self.found(1_000_000, 1e-3), self.found(4_000_000, 4e-3)]
+        measured = {claim.name: claim.measured(found) for claim in reproduction.CLAIMS}
+        self.assertAlmostEqual(measured["times as fast as GSCore"], 2)
+        self.assertAlmostEqual(measured["times less energy than GSCore"], 2)
+        self.assertAlmostEqual(measured["GPU, frames/s"], 5)
+        self.assertAlmostEqual(measured["gain of the coarse filter"], 2)
+        self.assertAlmostEqual(measured["gain of codebooks without it"], 1.5)
+        self.assertAlmostEqual(measured["dropped by both filters, %"], 75)
+        rows = reproduction.claim_rows(reproduction.Point("paper_text", "96", 4), found)
+        passes = {row[0]: row[8] for row in rows}
+        self.assertEqual(passes["times as fast as GSCore"], "yes")
+        self.assertEqual(passes["gain of codebooks without it"], "no")
+        self.assertEqual(rows[0][4:7] + rows[0][9:], ("paper_text", "96", 25.6, 30.0, math.inf))
+        *_, passed, of, fail, area = reproduction.serves_row(
+            reproduction.Point("paper_text", "96", 4), found
+        )
+        self.assertEqual((passed + len(fail.split("; ")), of, area), (of, 9, 5.5))
+
+    def test_a_waterfall_takes_every_part_away_in_both_orders(self):
+        text = {"vsu": {"ray_lanes": 8}, "hfu": {"ffu_lanes": 16}, "codebook": {"preloaded": False}}
+        ideal = {"vsu": {"ray_lanes": 9}, "hfu": {"ffu_lanes": 16}, "codebook": {"preloaded": True}}
+        by_part = reproduction.settings_by_part(text, ideal)
+        self.assertEqual(list(by_part), list(reproduction.PARTS))
+        self.assertEqual(by_part["rays, samples and their tables"], ("vsu.ray_lanes=8",))
+        self.assertEqual(by_part["a fine test a cycle"], ())
+        orders = dict(reproduction.waterfall_orders(by_part))
+        gone = {"vsu.ray_lanes=8", "codebook.preloaded=false"}
+        for steps in orders.values():
+            self.assertEqual((steps[0][1], set(steps[-1][1])), ((), gone))
+        self.assertEqual(orders["backwards"][1][1], ("codebook.preloaded=false",))
+        rows = reproduction.waterfall_rows("forwards", [("a", 2.0, 30.0), ("b", 1.0, 29.0)])
+        self.assertEqual(rows[1], ("forwards", "b", 1.0, 2.0, 29.0))
+
+    def test_a_key_of_no_part_is_refused(self):
+        with self.assertRaisesRegex(ValueError, "storage.encoding: differs between"):
+            reproduction.settings_by_part(
+                {"storage": {"encoding": "vq"}}, {"storage": {"encoding": "raw"}}
+            )
 
 
 if __name__ == "__main__":

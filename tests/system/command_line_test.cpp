@@ -60,6 +60,8 @@ TEST_CASE("command line: options and their values") {
              "  bus MB       mJ\n",
              "\nview 0: ", "\nview 0: energy ", "\n  DRAM region ", "\n  frame_buffer ",
              " mm2 at 32 nm; ", " with PHY and controller of lpddr3_1600\n"}},
+           {"$SG simulate $B --config paper_text --out o && grep stated o/report.json",
+            {" mm2 at 32 nm, 5.37 stated; ", "\"stated\": 5.37"}},
            {"$SG simulate $B --verbose --out o",
             {" binding ", "\n  mm2 by kind: vsu ", " lanes (fp32_lane); ",
              "\nchosen: ", "\n  frame_buffer "}},

@@ -78,6 +78,36 @@ TEST_CASE("configuration: what is printed and read again is the same machine, an
   }
 }
 
+TEST_CASE("configuration: a file's values lie over those of the preset that is its base") {
+  const auto printed = [](const Arguments& config) {
+    const Outcome shown = run_streaminggs(
+        joined({"simulate", "builtin:object?n=500", "--print-config", "--config"}, config));
+    INFO(shown.err);
+    REQUIRE(shown.status == 0);
+    return shown.out;
+  };
+  const ScratchFolder scratch;
+  const auto based = [&](const char* text) { return Arguments{scratch.write("mine.json", text)}; };
+  CHECK(printed(based(R"({"base": "exact", "hfus": 2, "merge": {"entries": 64}})")) ==
+        printed(with_settings({"exact"}, {"hfus=2", "merge.entries=64"})));
+  // A preset may have a base of its own.
+  CHECK(printed(based(R"({"base": "paper_no_vq_cgf", "hfu": {"coarse_filter": true}})")) ==
+        printed({"paper_no_vq"}));
+  for (const auto& [text, says] : {
+           std::pair{R"({"base": "papre"})",
+                     "mine.json: base: got papre; did you mean paper? Expected one of exact, "},
+           {R"({"base": 3})", "mine.json: base: got 3, expected one of exact, "},
+           {R"({"base": "exact", "machine": "paper"})",
+            "preset exact: vsu.upper_nodes: unknown key"},
+           {R"({"base": "exact", "hfus": 0})", "mine.json: hfus: got 0, expected"},
+       }) {
+    const Outcome refused =
+        run_streaminggs(joined({"simulate", "builtin:object?n=500", "--config"}, based(text)));
+    CHECK(refused.status == 2);
+    CHECK_THAT(refused.err, Contains(says));
+  }
+}
+
 TEST_CASE("configuration: fitted memories change nothing but what is left over") {
   const Arguments scene = {"builtin:object?n=500", "--size", "64x36"};
   for (const char* preset : {"exact", "paper", "gscore_lossless"}) {

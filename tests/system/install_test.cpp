@@ -48,6 +48,9 @@ TEST_CASE("install: the prefix's files are the ones that are read") {
                       "16}' >$DATA/presets/mine.json && "
                       "$IN/streaminggs simulate $B --config mine --print-config"),
            0, "\"group_width_px\": 16");
+  contains(prefix.run("echo '{\"base\": \"paper_no_vq\"}' >$DATA/presets/paper.json; "
+                      "$IN/streaminggs simulate $B --config paper_no_cgf"),
+           2, "preset paper_no_vq: base: got paper, expected a preset without it as its base");
   contains(prefix.run("rm $DATA/presets/paper.json; $IN/streaminggs simulate $B --config paper"), 2,
            "mine");
   contains(prefix.run("echo '{' >$DATA/published.json; $IN/tb_dram --table"), 2,

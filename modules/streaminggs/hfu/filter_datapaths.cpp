@@ -1,17 +1,27 @@
 // Counts of the filters, run once.
 #include "modules/streaminggs/hfu/filter_datapaths.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "algorithm/splat/visible_extents.h"
 #include "modules/datapath/counted_datapath.h"
 #include "modules/datapath/filter_flows.h"
+#include "modules/datapath/work_rates.h"
 
 namespace sgs {
 namespace {
 
 std::uint32_t across(std::uint32_t parts) {
   return static_cast<std::uint32_t>(std::lround(std::sqrt(parts)));
+}
+
+// The configuration for records of another degree, where tests cost what is counted.
+HfuConfig for_record(HfuConfig config, const FineRecord& record) {
+  if (config.cost == FilterCost::kCounted) {
+    config.ffu_macs = fine_datapath(config, record).counted_macs;
+  }
+  return config;
 }
 
 }  // namespace
@@ -61,12 +71,20 @@ Datapath fine_pipeline(const HfuConfig& config, const FineRecord& record,
   Datapath path = fine_pipeline(config, record, latencies);
   for (const FineRecord& other : records) {
     if (other == record) continue;
-    HfuConfig of_other = config;
-    if (config.cost == FilterCost::kCounted) {
-      of_other.ffu_macs = fine_datapath(config, other).counted_macs;
-    }
-    path.build_also_for(fine_pipeline(of_other, other, latencies));
+    path.build_also_for(fine_pipeline(for_record(config, other), other, latencies));
   }
+  return path;
+}
+
+Datapath rounding_pipeline(const HfuConfig& config, const OperationLatencies& latencies) {
+  constexpr FineRecord kLeast{0, 4};
+  const std::uint64_t turn =
+      fine_datapath(for_record(config, kLeast), kLeast).interval_cycles() / config.ffus;
+  const FlowPart flow = rounding_flow();
+  Datapath path = counted_datapath("rounding", "fine", flow.counts());
+  path.lanes =
+      static_cast<std::uint32_t>(cycles_for(path.used_macs, std::max<std::uint64_t>(1, turn)));
+  schedule(path, flow.steps(latencies), latencies);
   return path;
 }
 

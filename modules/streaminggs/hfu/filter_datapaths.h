@@ -31,6 +31,10 @@ Datapath fine_pipeline(const HfuConfig& config, const FineRecord& record,
 Datapath fine_pipeline(const HfuConfig& config, const FineRecord& record,
                        const OperationLatencies& latencies, const std::vector<FineRecord>& records);
 
+// Rounding of an HFU's splats to halves, on as many lanes as keep pace with its FFUs, whatever the
+// record.
+Datapath rounding_pipeline(const HfuConfig& config, const OperationLatencies& latencies);
+
 // The datapath of several HFUs.
 inline Datapath side_by_side(Datapath of_one, std::uint32_t hfus) {
   of_one.copies *= hfus;

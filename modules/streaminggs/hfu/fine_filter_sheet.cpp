@@ -1,6 +1,7 @@
 // Data sheet of the fine filter: its on-chip memory, counters and costs.
 #include <algorithm>
 
+#include "modules/streaminggs/hfu/filter_datapaths.h"
 #include "modules/streaminggs/hfu/fine_filter.h"
 
 namespace sgs {
@@ -59,6 +60,11 @@ void FineFilter::publish(DataSheet& sheet) {
   }
   sheet.counters(counters_);
   sheet.datapath(tests_, counters_.fine_tests);
+  if (built_for_.splats == NumberFormat::kHalf) {
+    sheet.datapath(side_by_side(rounding_pipeline(config_, built_for_.single),
+                                static_cast<std::uint32_t>(parts_.size())),
+                   counters_.splats);
+  }
   const std::uint64_t words = read_cycles(record_bytes_);
   sheet.accesses("second halves", counters_.second_halves_taken * words,
                  counters_.second_halves * words);

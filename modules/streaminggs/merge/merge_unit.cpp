@@ -209,14 +209,14 @@ void MergeUnit::merge_runs(std::list<RunReader>::iterator end) {
 
 // Written before it is read.
 void MergeUnit::keep_run(const SpillPort& to, const SpillRun& run) {
-  spill_used_ += run.entries * KeyCodec::kBytes;
+  spill_used_ += run.entries * KeyCodec::bytes();
   counters_.keys_spilled += run.entries;
   await_all(memory, merge_);
   runs_.emplace_back(to, run, KeyCodec{group_});
 }
 
 bool MergeUnit::fits_spill_area(std::uint64_t keys) const {
-  return spill_used_ + keys * KeyCodec::kBytes <= spill_.bytes / 2;
+  return spill_used_ + keys * KeyCodec::bytes() <= spill_.bytes / 2;
 }
 
 void MergeUnit::take_front(RunReader& run, std::list<RunReader>& from) {

@@ -67,8 +67,8 @@ class MergeUnit : public sc_core::sc_module {
  private:
   struct KeyCodec {
     using Entry = FineCandidate;
-    static constexpr std::uint32_t kBytes = kKeyBytes;
     std::uint32_t group = 0;
+    static constexpr std::uint32_t bytes() { return kKeyBytes; }
     void encode(const FineCandidate& key, std::byte* out) const;
     FineCandidate decode(const std::byte* bytes) const;
   };

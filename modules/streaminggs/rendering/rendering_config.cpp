@@ -50,6 +50,18 @@ Datapath conic_pipeline(const RenderingConfig& config, const OperationLatencies&
   return path;
 }
 
+// Seven halves are widened, three of them in units of their own.
+Datapath terms_pipeline(const OperationLatencies& single) {
+  constexpr std::uint32_t kHalves = 7, kOfConic = 3;
+  const FlowPart flow = conic_terms_flow();
+  Datapath path = counted_datapath("conic_terms", "rendering", flow.counts());
+  path.part_of("comparator").operations +=
+      kHalves * kConversionComparisons + kOfConic * kScalingComparisons;
+  path.lanes = path.used_macs;
+  schedule(path, flow.steps(single), single);
+  return path;
+}
+
 Datapath blend_pipeline(const RenderingConfig& config, const OperationLatencies& latencies) {
   const OperationCounts& counts = counted(config.precision).subtile_blend;
   const bool in_half = in_16_bits(config.precision);

@@ -94,6 +94,8 @@ inline void visit(ConfigVisitor& v, RenderingConfig& c) {
 // those that begin a splat's spans, an item a splat; those of its rows. Scheduled on lanes of these
 // latencies.
 Datapath conic_pipeline(const RenderingConfig& config, const OperationLatencies& single);
+// Ahead of all these, where splats come in halves: a splat a cycle.
+Datapath terms_pipeline(const OperationLatencies& single);
 Datapath blend_pipeline(const RenderingConfig& config, const OperationLatencies& latencies);
 Datapath begin_pipeline(const RenderingConfig& config, const OperationLatencies& single);
 Datapath span_pipeline(const RenderingConfig& config, const OperationLatencies& single);

@@ -106,6 +106,9 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
 void RenderingUnit::publish_ledger(DataSheet& sheet) {
   const ClusterSchedule::Counters& clusters = schedule_.counters();
   const bool in_half = in_16_bits(config_.precision);
+  if (built_for_.splats == NumberFormat::kHalf) {
+    sheet.datapath(terms_pipeline(built_for_.single), counters_.splats_taken);
+  }
   sheet.datapath(conic_pipeline(config_, built_for_.single), counters_.splats_taken);
   sheet.datapath(blend_pipeline(config_, in_half ? built_for_.half : built_for_.single),
                  clusters.subtile_blends);

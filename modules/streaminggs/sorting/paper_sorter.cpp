@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <deque>
 #include <queue>
 
-#include "algorithm/memory/splat_record.h"
 #include "modules/streaminggs/sorting/sorting_cost.h"
 
 namespace sgs {
@@ -15,16 +15,24 @@ namespace {
 
 constexpr const char* kSortBuffers = "sort buffers";
 
-// Splats of one group.
-struct SplatCodec {
-  using Entry = Splat;
-  static constexpr std::uint32_t kBytes = kSplatEntryBytes;
-  SubtileRect group;
-  void encode(const Splat& splat, std::byte* out) const { encode_splat(splat, group, out); }
-  Splat decode(const std::byte* bytes) const { return decode_splat(bytes, group); }
-};
-
 }  // namespace
+
+// Entries of splats in a format.
+struct PaperSorter::Codec {
+  using Entry = PaperSorter::Entry;
+  NumberFormat format;
+
+  std::uint32_t bytes() const { return splat_entry_bytes(format); }
+  void encode(const Entry& entry, std::byte* out) const {
+    std::memcpy(out, entry.bytes.data(), bytes());
+  }
+  Entry decode(const std::byte* from) const {
+    const Splat splat = decode_splat(format, from, {});
+    Entry entry{splat.depth, splat.index, {}};
+    std::memcpy(entry.bytes.data(), from, bytes());
+    return entry;
+  }
+};
 
 PaperSorter::PaperSorter(const sc_core::sc_module_name& name, const PaperSorterConfig& config,
                          const PaperSorterPlace& place, const UnitContext& context)
@@ -46,7 +54,7 @@ void PaperSorter::run() {
     if (!finished->finished(group_)) {
       sort_buffer();
       if (runs_.empty()) {
-        for (const Splat& splat : buffer_) emit(splat);
+        for (const Entry& entry : buffer_) emit(entry);
       } else {
         spill_buffer();
         merge_runs();
@@ -103,7 +111,9 @@ void PaperSorter::accept(const SplatToken& token) {
     sort_buffer();
     spill_buffer();
   }
-  buffer_.push_back(token.splat);
+  Entry entry{token.splat.depth, token.splat.index, {}};
+  encode_splat(built_for_.splats, token.splat, group_subtiles(), entry.bytes.data());
+  buffer_.push_back(entry);
 }
 
 void PaperSorter::sort_buffer() {
@@ -116,14 +126,14 @@ void PaperSorter::sort_buffer() {
 
 void PaperSorter::spill_buffer() {
   if (buffer_.empty()) return;
-  SpillWriter<SplatCodec> writer(spill_port(), place_.spill.base + spill_used_,
-                                 SplatCodec{group_subtiles()});
-  for (const Splat& splat : buffer_) {
+  SpillWriter<Codec> writer(spill_port(), place_.spill.base + spill_used_,
+                            Codec{built_for_.splats});
+  for (const Entry& entry : buffer_) {
     sort_.work(1);
-    writer.append(splat);
+    writer.append(entry);
   }
   runs_.push_back(writer.finish());
-  spill_used_ += runs_.back().entries * kSplatEntryBytes;
+  spill_used_ += runs_.back().entries * entry_bytes();
   ++counters_.runs_spilled;
   counters_.entries_spilled += buffer_.size();
   buffer_.clear();
@@ -143,17 +153,17 @@ void PaperSorter::merge_runs() {
       const std::vector<SpillRun> group(
           open.begin() + static_cast<std::ptrdiff_t>(at),
           open.begin() + static_cast<std::ptrdiff_t>(std::min(at + fan_in, open.size())));
-      SpillWriter<SplatCodec> writer(spill_port(), place_.spill.base + pass % 2 * half + used,
-                                     SplatCodec{group_subtiles()});
-      merge(group.data(), group.size(), [&](const Splat& splat) { writer.append(splat); });
+      SpillWriter<Codec> writer(spill_port(), place_.spill.base + pass % 2 * half + used,
+                                Codec{built_for_.splats});
+      merge(group.data(), group.size(), [&](const Entry& entry) { writer.append(entry); });
       longer.push_back(writer.finish());
-      used += longer.back().entries * kSplatEntryBytes;
+      used += longer.back().entries * entry_bytes();
       counters_.entries_spilled += longer.back().entries;
     }
     open = std::move(longer);
   }
   const std::vector<SpillRun> last(open.begin(), open.end());
-  merge(last.data(), last.size(), [&](const Splat& splat) { emit(splat); });
+  merge(last.data(), last.size(), [&](const Entry& entry) { emit(entry); });
 }
 
 // Merges runs through the network: each entry passes the levels of a binary tree, kMergeWidth
@@ -161,9 +171,9 @@ void PaperSorter::merge_runs() {
 template <class Sink>
 void PaperSorter::merge(const SpillRun* runs, std::size_t count, Sink&& sink) {
   await_all(memory, sort_);  // the runs have been written
-  std::deque<SpillReader<SplatCodec>> readers;
+  std::deque<SpillReader<Codec>> readers;
   for (std::size_t i = 0; i < count; ++i) {
-    readers.emplace_back(spill_port(), runs[i], SplatCodec{group_subtiles()});
+    readers.emplace_back(spill_port(), runs[i], Codec{built_for_.splats});
   }
   const auto behind = [&](std::size_t a, std::size_t b) {
     return in_front(readers[b].front(), readers[a].front());
@@ -188,10 +198,10 @@ void PaperSorter::merge(const SpillRun* runs, std::size_t count, Sink&& sink) {
   await_all(memory, sort_);  // blocks asked for and no longer wanted
 }
 
-void PaperSorter::emit(const Splat& splat) {
+void PaperSorter::emit(const Entry& entry) {
   sort_.work(1);
   SplatToken token;
-  token.splat = splat;
+  token.splat = decode_splat(built_for_.splats, entry.bytes.data(), group_subtiles());
   token.group = group_;
   token.visit = visit_;
   sorted->push(token, sort_);
@@ -207,11 +217,12 @@ SubtileRect PaperSorter::group_subtiles() const {
 
 // Runs that are read back lie in the sort buffer, which is empty then.
 SramUses PaperSorter::sram_uses(const PaperSorterConfig& config, const BuiltFor& built_for) {
+  const std::uint32_t entry_bytes = splat_entry_bytes(built_for.splats);
   const SramUse block = sram_use("spill blocks", kSharedSram,
-                                 {{config.spill_block_entries, "splats"}, {kSplatEntryBytes, "B"}},
-                                 {8 * kSplatEntryBytes}, kOneOfEach);
+                                 {{config.spill_block_entries, "splats"}, {entry_bytes, "B"}},
+                                 {8 * entry_bytes}, kOneOfEach);
   const auto bytes = static_cast<std::uint32_t>(block.bytes);
-  SramUses uses = sort_memories(kSortBuffers, kSharedSram, config.buffer_entries, kSplatEntryBytes);
+  SramUses uses = sort_memories(kSortBuffers, kSharedSram, config.buffer_entries, entry_bytes);
   uses.insert(uses.end(),
               {block, outstanding_table(kSharedSram, built_for.memory_port),
                unanswered_writes("spill writes", kSharedSram, built_for.memory_port, bytes)});

@@ -4,10 +4,13 @@
 // and merges them back, in several passes if need be.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <systemc>
 #include <vector>
 
+#include "algorithm/memory/splat_record.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/messages.h"
 #include "modules/streaminggs/sorting/sorting_config.h"
@@ -55,6 +58,17 @@ class PaperSorter : public sc_core::sc_module {
   void publish(DataSheet& sheet);
 
  private:
+  // A splat in the sort buffer: what it is sorted by, and its bytes.
+  struct Entry {
+    float depth = 0;
+    std::uint32_t index = 0;
+    std::array<std::byte, kSplatEntryBytes> bytes{};
+  };
+  static bool in_front(const Entry& a, const Entry& b) {
+    return a.depth < b.depth || (a.depth == b.depth && a.index < b.index);
+  }
+  struct Codec;
+
   void run();  // thread
   SplatToken collect(FifoSelector<SplatToken>& inputs);
   void accept(const SplatToken& token);
@@ -63,7 +77,8 @@ class PaperSorter : public sc_core::sc_module {
   void merge_runs();
   template <class Sink>
   void merge(const SpillRun* runs, std::size_t count, Sink&& sink);
-  void emit(const Splat& splat);
+  void emit(const Entry& entry);
+  std::uint32_t entry_bytes() const { return splat_entry_bytes(built_for_.splats); }
   SubtileRect group_subtiles() const;
   SpillPort spill_port() {
     return {memory, sort_, config_.spill_block_entries, place_.spill.region};
@@ -74,7 +89,7 @@ class PaperSorter : public sc_core::sc_module {
   const PaperSorterPlace place_;
   const StreamingJob& job_;
   Activity sort_;
-  std::vector<Splat> buffer_;
+  std::vector<Entry> buffer_;
   std::vector<SpillRun> runs_;
   std::uint64_t spill_used_ = 0;
   std::uint32_t group_ = 0, visit_ = 0;

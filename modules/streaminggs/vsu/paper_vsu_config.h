@@ -20,7 +20,7 @@ struct PaperVsuConfig {
   std::uint32_t ray_depth_cycles = 0;
   std::uint32_t table_banks = 2;
   std::uint32_t ray_step_px = 2;
-  double sample_step_voxels = 0;
+  double sample_step_voxels = 0, sample_far_voxels = 0;
   std::uint32_t samples_per_cycle = 0;
   RenamingForm renaming = RenamingForm::kHashed;
   std::uint32_t renaming_bytes = 8192;
@@ -43,8 +43,8 @@ struct PaperVsuConfig {
   // VSU of the paper: voxels by the coordinates of samples, a renaming table, an adjacency table.
   bool samples() const { return samples_per_cycle > 0; }
   RayPattern rays() const {
-    return {ray_step_px, static_cast<float>(sample_step_voxels), samples() ? 1 : rays_in_flight,
-            samples()};
+    return {ray_step_px, static_cast<float>(sample_step_voxels),
+            static_cast<float>(sample_far_voxels), samples() ? 1 : rays_in_flight, samples()};
   }
   // As OrderingTable's.
   std::uint32_t line_destinations() const { return samples() ? adjacency_destinations : 0; }
@@ -69,6 +69,9 @@ inline void visit(ConfigVisitor& v, PaperVsuConfig& c) {
     "rays of every so-many-th pixel of a group are followed, and of its last row and column");
   v("sample_step_voxels", c.sample_step_voxels, in_range(0, 10),
     "distance of samples on a ray; 0: every cell is visited");
+  v("sample_far_voxels", c.sample_far_voxels, in_range(0, 1e6),
+    "distance from the eye at which a ray ends whose samples number voxels; 0: with the box of all "
+    "voxels");
   v("samples_per_cycle", c.samples_per_cycle, in_range(0, 16),
     "samples of a ray whose voxels are numbered by their coordinates, one ray after another; 0: "
     "rays step through the tree side by side");

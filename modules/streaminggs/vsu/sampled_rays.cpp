@@ -39,7 +39,7 @@ SampledRays::SampledRays(const PaperVsuConfig& config, const OperationLatencies&
       begins_(sampled_ray_pipeline(config, latencies)),
       samples_(ray_sample_pipeline(config, latencies)),
       space_(sample_space(job.view.position, job.layout.voxel_table().frame, job.renaming.cells,
-                          config.rays().sample_step_voxels)),
+                          config.rays().sample_step_voxels, config.rays().sample_far_voxels)),
       renaming_(config.renaming_bytes, job.renaming.records),
       adjacency_(config, job.adjacency) {}
 

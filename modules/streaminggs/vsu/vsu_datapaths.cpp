@@ -55,6 +55,7 @@ SampleSpaceOf<Counting> diagonal_space(DataFlow& flow) {
     space.box[axis] = input(flow, 16);
   }
   space.step = input(flow, 0.5F);
+  space.far = input(flow, 100);
   return space;
 }
 

@@ -123,6 +123,10 @@ void visit_area(ReportVisitor& r, const ViewResult& view) {
               "Middle area of the machine.");
   visit_band(r, "without_memory_interface", "mm2", view.area_totals_mm2.without_memory_interface);
   visit_band(r, "with_memory_interface", "mm2", view.area_totals_mm2.with_memory_interface);
+  if (r.has(view.stated_area_mm2 > 0)) {
+    r("stated", "mm2", "Area that is published for the machine's units and on-chip memories.",
+      view.stated_area_mm2);
+  }
   r.object("by_owner", [&] {
     r.each(view.area_by_owner_mm2.by_component, [&](const auto& part) {
       r({"OWNER", part.first}, "mm2",

@@ -113,8 +113,10 @@ void print_scene(const PreparedScene& scene, const RunConfig& config, bool dropp
 
 void print_area(const ViewResult& v, const std::string& technology, Detail detail) {
   const MemoryInterface& interface = v.memory_interface;
-  fmt::print("area {} mm2 at {}; {} with PHY and controller of {}\n",
-             in_words(v.area_totals_mm2.without_memory_interface), technology,
+  const std::string stated =
+      v.stated_area_mm2 > 0 ? fmt::format(", {:.2f} stated", v.stated_area_mm2) : "";
+  fmt::print("area {} mm2 at {}{}; {} with PHY and controller of {}\n",
+             in_words(v.area_totals_mm2.without_memory_interface), technology, stated,
              in_words(v.area_totals_mm2.with_memory_interface),
              interface.area_of.empty() ? "the memory" : interface.area_of);
   if (!interface.area_known || detail == Detail::kAll) fmt::print("{}\n", interface.in_words());

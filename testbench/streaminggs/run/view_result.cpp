@@ -147,6 +147,7 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
   JudgedFrame judged = judge_frame(scene, job, pictures, golden, run.frame);
   ViewResult view = view_result(scene, job, std::move(pictures), std::move(golden),
                                 std::move(judged), std::move(run), config.dram, technology);
+  view.stated_area_mm2 = config.design->stated_area_mm2();
   view.equals_golden = equal;
   view.left_out = std::move(entries);
   return view;

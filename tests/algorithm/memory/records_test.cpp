@@ -67,8 +67,8 @@ TEST_CASE("splat record: all but the footprint to the bit, the footprint cut to 
   const auto through = [&](const SubtileRect& footprint) {
     splat.footprint = footprint;
     std::byte bytes[kSplatEntryBytes];
-    encode_splat(splat, group, bytes);
-    const Splat back = decode_splat(bytes, group);
+    encode_splat(NumberFormat::kSingle, splat, group, bytes);
+    const Splat back = decode_splat(NumberFormat::kSingle, bytes, group);
     CHECK(std::memcmp(&back, &splat, offsetof(Splat, footprint)) == 0);
     return back.footprint;
   };
@@ -84,9 +84,49 @@ TEST_CASE("splat record: a group of the largest size keeps its far corner") {
                           static_cast<std::uint16_t>(2000 + side)};
   Splat splat{};
   splat.footprint = group;
-  std::byte bytes[kSplatEntryBytes];
-  encode_splat(splat, group, bytes);
-  CHECK(decode_splat(bytes, group).footprint == group);
+  for (const NumberFormat format : {NumberFormat::kSingle, NumberFormat::kHalf}) {
+    std::byte bytes[kSplatEntryBytes];
+    encode_splat(format, splat, group, bytes);
+    CHECK(decode_splat(format, bytes, group).footprint == group);
+  }
+}
+
+TEST_CASE("splat record: in halves the key and the centre to the bit, the rest to 11 bits") {
+  const SubtileRect group{16, 32, 32, 48};
+  Splat splat{};
+  splat.x = 70.2503F;
+  splat.y = -3.5007F;
+  splat.conic_a = 0.1F;
+  splat.conic_b = -0.02F;
+  splat.conic_c = 0.013F;
+  splat.opacity = 0.987F;
+  splat.depth = 12.3456789F;
+  splat.index = 0xdeadbeef;
+  splat.rgb = {0.1F, 2.01F, 0};
+  splat.footprint = {20, 40, 25, 41};
+  std::byte bytes[splat_entry_bytes(NumberFormat::kHalf)];
+  encode_splat(NumberFormat::kHalf, splat, group, bytes);
+  const Splat back = decode_splat(NumberFormat::kHalf, bytes, group);
+  CHECK(back.x == splat.x);
+  CHECK(back.y == splat.y);
+  CHECK(back.depth == splat.depth);
+  CHECK(back.index == splat.index);
+  CHECK(back.footprint == splat.footprint);
+  CHECK(back.opacity != splat.opacity);
+  constexpr double kHalfPlace = 0x1p-11;
+  const auto near = [](float value, double places) {
+    return Approx(static_cast<double>(value)).epsilon(places * kHalfPlace);
+  };
+  CHECK(back.opacity == near(splat.opacity, 1));
+  CHECK(back.rgb.x == near(splat.rgb.x, 1));
+  CHECK(back.rgb.y == near(splat.rgb.y, 1));
+  CHECK(back.rgb.z == 0);
+  CHECK(back.conic_a == near(splat.conic_a, 1));
+  CHECK(back.conic_b == near(splat.conic_b, 2));
+  CHECK(back.conic_c == near(splat.conic_c, 4));
+  const Splat rounded = rounded_splat(NumberFormat::kHalf, splat);
+  CHECK(std::memcmp(&back, &rounded, offsetof(Splat, footprint)) == 0);
+  CHECK(rounded.footprint == splat.footprint);
 }
 
 }  // namespace

@@ -184,7 +184,7 @@ TEST_CASE("cell samples: with fine steps what the walk finds, and the renaming t
     const auto all = traced(walk, ray);
     exact += all.size();
     for (const float step : {0.5F, 0.01F}) {
-      const SampleSpace space = sample_space(origin, grid.frame, cells, step);
+      const SampleSpace space = sample_space(origin, grid.frame, cells, step, 0);
       RayWalk sampling(CellSamplePath(grid.frame, space), table);
       const auto some = traced(sampling, ray);
       (step == 0.5F ? by_coarse : by_fine) += some.size();
@@ -209,7 +209,7 @@ TEST_CASE("cell samples: the distance from the eye's cell rises from cell to cel
     const glm::vec3 eye = in_cube(random, i % 2 == 0 ? 30.0F : 3.0F);
     glm::vec3 direction = in_cube(random, 1);
     if (i % 5 == 0) direction[i % 3] = 0;
-    CellSamples<> samples(sample_space(eye, frame, {50, 40, 30}, 0.37F));
+    CellSamples<> samples(sample_space(eye, frame, {50, 40, 30}, 0.37F, 0));
     samples.begin(direction);
     glm::ivec3 before(-1);
     std::uint32_t last = 0;
@@ -222,7 +222,7 @@ TEST_CASE("cell samples: the distance from the eye's cell rises from cell to cel
       last = distance;
     }
   }
-  CellSamples<> none(sample_space({0, 0, 0}, frame, {50, 40, 30}, 0.5F));
+  CellSamples<> none(sample_space({0, 0, 0}, frame, {50, 40, 30}, 0.5F, 0));
   none.begin({0, 0, 0});
   CHECK(none.done());
   // A sample whose number is too large to count on would be taken for ever.
@@ -230,6 +230,23 @@ TEST_CASE("cell samples: the distance from the eye's cell rises from cell to cel
   for (const auto& [eye, step] : {std::pair(0.0F, 1e-6F), std::pair(1e7F, 0.5F)}) {
     CHECK_THROWS_AS(sample_space({eye, 0, 0}, frame, {50, 40, 30}, step), InputError);
   }
+}
+
+TEST_CASE("cell samples: a ray ends at a distance, or with the box") {
+  const VoxelFrame frame{2, glm::ivec3(0), 3};
+  const auto count = [&](float far_voxels) {
+    CellSamples<> samples(sample_space({1, 1, 1}, frame, {50, 40, 30}, 0.5F, far_voxels));
+    samples.begin({0, 3, 0});
+    std::uint64_t samples_taken = 0;
+    for (; !samples.done(); samples.next()) ++samples_taken;
+    return samples_taken;
+  };
+  // The eye lies half a voxel within the box; there is a sample at the eye.
+  CHECK(count(0) == 80);
+  CHECK(count(10) == 21);
+  CHECK(count(10.4F) == 21);
+  CHECK(count(10.5F) == 22);
+  CHECK(count(1000) == 80);
 }
 
 TEST_CASE("renaming table: every voxel and no empty cell, in either form") {

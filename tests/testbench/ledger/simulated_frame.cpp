@@ -6,16 +6,14 @@
 
 #include "modules/machines.h"
 #include "testbench/builtin/open_scene.h"
+#include "testbench/command_line/config_source.h"
 #include "testbench/result/ledger.h"
 
 namespace sgs::test {
 
 Frame simulated(const std::string& preset, const Settings& settings, const std::string& source) {
-  ConfigDocument document;
-  document.add_file(std::string(SGS_SOURCE_DIR) + "/testbench/configs/" + preset + ".json");
-  for (const std::string& setting : settings) document.add_override(setting);
   Frame frame;
-  frame.config = read_run_config(document, machine_kinds());
+  frame.config = read_run_config(ConfigSource{preset, settings}.document(), machine_kinds());
   frame.config.storage.vq.iterations = 1;
   resolve(frame.config);
   Scene scene = open_scene(source);

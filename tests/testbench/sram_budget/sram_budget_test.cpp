@@ -12,6 +12,7 @@
 #include "modules/machines.h"
 #include "modules/streaminggs/exact_machine.h"
 #include "testbench/builtin/open_scene.h"
+#include "testbench/command_line/config_source.h"
 #include "testbench/process/child_process.h"
 #include "testbench/result/collect.h"
 #include "testbench/result/frame_result.h"
@@ -30,10 +31,7 @@ struct Prepared {
   FrameJob job;
 };
 Prepared prepared(const std::string& preset, const Settings& settings) {
-  ConfigDocument document;
-  document.add_file(std::string(SGS_SOURCE_DIR) + "/testbench/configs/" + preset + ".json");
-  for (const std::string& setting : settings) document.add_override(setting);
-  RunConfig config = read_run_config(document, machine_kinds());
+  RunConfig config = read_run_config(ConfigSource{preset, settings}.document(), machine_kinds());
   config.storage.vq.iterations = 1;
   resolve(config);
   Scene scene = open_scene("builtin:object?n=64");
@@ -84,9 +82,10 @@ void check_sums(const std::string& preset, Settings settings) {
 }
 
 TEST_CASE("sram budget: units publish what the configuration was checked with, queues included") {
-  for (const char* preset : {"exact", "exact_fast", "exact_fp16", "exact_wide", "exact_half",
-                             "exact_vq", "exact_vq_packed", "paper", "paper_no_vq", "paper_no_cgf",
-                             "paper_no_vq_cgf", "gscore", "gscore_fp32_keys", "gscore_lossless"}) {
+  for (const char* preset :
+       {"exact", "exact_fast", "exact_fp16", "exact_wide", "exact_half", "exact_vq",
+        "exact_vq_packed", "paper", "paper_no_vq", "paper_no_cgf", "paper_no_vq_cgf", "paper_text",
+        "paper_ideal", "gscore", "gscore_fp32_keys", "gscore_lossless"}) {
     check_sums(preset, {});
   }
 }

@@ -26,7 +26,7 @@ struct SamplingHardware {
   std::uint32_t begin_lanes = 8, begin_macs = 0;  // a ray begins in its turn on them
   std::uint32_t begin_cycles = 100, sample_cycles = 9;
   std::uint32_t renaming_bytes = 8192;
-  float step_voxels = 0.5F;
+  float step_voxels = 0.5F, far_voxels = 0;
   std::uint32_t lines = 256, destinations = 7;
 };
 
@@ -261,7 +261,8 @@ class ClockedSampling {
         view_(view),
         table_(renaming_table(grid, RenamingForm::kHashed)),
         base_(base),
-        space_(sample_space(view.position, grid.frame, occupied_cells(grid), hw.step_voxels)),
+        space_(sample_space(view.position, grid.frame, occupied_cells(grid), hw.step_voxels,
+                            hw.far_voxels)),
         cache_(hw.renaming_bytes) {}
 
   // All is free and the tables empty; the first ray begins in this cycle.

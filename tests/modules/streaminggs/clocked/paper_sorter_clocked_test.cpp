@@ -21,6 +21,7 @@ struct PaperSorterWorkload {
   NetworkTurns turns = {};
   bool skip_trivial = true;
   Finishing finishing = {};
+  NumberFormat splats = NumberFormat::kSingle;
 };
 
 SplatToken mark_of(std::uint32_t visit) {
@@ -68,7 +69,9 @@ void run_paper_sorter(tb::Case& test, Takings& taken, const PaperSorterWorkload&
   config.sort_interval_cycles = load.turns.block_cycles;
   config.merge_interval_cycles = load.turns.merge_cycles;
   config.skip_trivial = load.skip_trivial;
-  PaperSorter unit("sorter", config, {0, 1, job.spill, load.turns.lists}, bench.context(job));
+  UnitContext context = bench.context(job);
+  context.built_for.splats = load.splats;
+  PaperSorter unit("sorter", config, {0, 1, job.spill, load.turns.lists}, context);
   const auto in = bench.add_fifos<SplatToken>("in", load.hfus, load.in_entries, 1);
   auto& out = bench.add_fifo<SplatToken>("out", load.out_entries, 1);
   FinishedGroups finished("finished", bench.clock(), kGroups, 1);
@@ -145,6 +148,8 @@ TEST_CASE("clocked reference: sorting unit of paper order, nothing spilled") {
            PaperSorterWorkload{"network of 4 lists", 0, 256, 1, 1, 1, 1, 7, 4, 4, of_four},
            PaperSorterWorkload{
                "groups that finish", 0, 64, 1, 1, 1, 1, 7, 4, 4, alone, true, {600}},
+           PaperSorterWorkload{
+               "in halves", 0, 256, 1, 1, 1, 1, 7, 4, 4, alone, true, {}, NumberFormat::kHalf},
        }) {
     table.workload(load, run_paper_sorter, clocked_paper_sorter);
   }

@@ -27,6 +27,7 @@ void sample(const SamplingHardware& hw, tb::PaperVsuPlan& plan) {
   PaperVsuConfig& config = plan.config;
   config.samples_per_cycle = hw.samples;
   config.sample_step_voxels = static_cast<double>(hw.step_voxels);
+  config.sample_far_voxels = static_cast<double>(hw.far_voxels);
   config.rays_in_flight = hw.rays;
   config.ray_step_px = hw.ray_step_px;
   config.ray_lanes = hw.begin_lanes;
@@ -234,6 +235,7 @@ TEST_CASE("clocked reference: VSU of paper order that samples rays") {
   few.rays = 1;
   few.begin_lanes = 4;
   few.ray_step_px = 4;
+  few.far_voxels = 6;
   SamplingHardware small = one;
   small.samples = 2;
   small.renaming_bytes = 256;
@@ -244,7 +246,7 @@ TEST_CASE("clocked reference: VSU of paper order that samples rays") {
            PaperVsuWorkload{"light: 100 Gaussians", 100, 1, 1, paper, 4, 4, 1, {}, one},
            PaperVsuWorkload{"heavy: 3000 Gaussians", 3000, 1, 1, paper, 4, 4, 1, {}, one},
            PaperVsuWorkload{"four samples a cycle", 3000, 1, 1, paper, 4, 4, 0.3F, {}, four},
-           PaperVsuWorkload{"a ray at a time", 1500, 1, 1, paper, 4, 4, 1, {}, few},
+           PaperVsuWorkload{"a ray at a time, 6 voxels long", 1500, 1, 1, paper, 4, 4, 1, {}, few},
            PaperVsuWorkload{"output stalled", 1500, 4, 300, paper, 4, 4, 1, {}, one},
            PaperVsuWorkload{"names in DRAM", 3000, 1, 1, far, 4, 4, 0.3F, {}, small},
            PaperVsuWorkload{"edges in DRAM", 3000, 1, 1, far, 4, 4, 0.3F, {}, narrow},
