@@ -1,6 +1,6 @@
 """The page that results are put together to: tabs, style and scripts in one HTML text, which needs
-nothing beside it. Pictures are halved until the page is small enough, then left out from the last
-tab on, and the page says so."""
+nothing beside it; and the tab of a view. Pictures are halved until the page is small enough, then
+left out from the last tab on, and the page says so."""
 
 from __future__ import annotations
 
@@ -8,14 +8,233 @@ import dataclasses
 import pathlib
 from collections.abc import Sequence
 
-from reporting import view
-from reporting.charts import data_uri, escaped, ramp_css
-from reporting.folder import Run, ViewFiles
+from reporting import charts, costs
+from reporting.charts import data_uri, escaped, number, percent, ramp_css, rate, size_of
+from reporting.folder import Run, ViewFiles, flat
 
 ASSETS = pathlib.Path(__file__).resolve().parent
 STYLE, SCRIPTS = "report_page.css", ("report_page.js", "report_points.js")
 MOST_BYTES = 6_000_000  # of the page
 MOST_HALVINGS = 2
+
+
+def quality(view: dict) -> str:
+    psnr_db = view["image"]["psnr_db"]
+    return "equal" if psnr_db is None else f"{psnr_db:.2f} dB"
+
+
+def mm2_with_phy(view: dict) -> str:
+    """With PHY and controller of the memory; empty where an earlier program made the report."""
+    band = view["area_mm2"].get("with_memory_interface")
+    return number(band["middle"]) if band else ""
+
+
+def of_the_model(view: dict) -> str:
+    """How the picture stands to the streaming renderer's."""
+    return f"{'bit for bit' if view['image']['equals_streaming_renderer'] else 'NOT'} the model's"
+
+
+def key_numbers(view: dict) -> str:
+    frame, image, dram, energy = view["frame"], view["image"], view["dram"], view["energy"]
+    area = view["area_mm2"]
+    more = mm2_with_phy(view)
+    joules, squares = energy["bands"]["total_j"], area["bands"]["total"]
+    cards = (
+        ("frames a second", rate(frame["fps"]), f"{number(frame['cycles'])} cycles"),
+        (
+            "PSNR",
+            quality(view),
+            f"SSIM {image['ssim']:.4f}; {of_the_model(view)}",
+        ),
+        (
+            "DRAM",
+            f"{number(dram['bytes'] / 1e6)} MB",
+            f"{number(dram['bus_bytes'] / 1e6)} MB on the bus; "
+            f"{number(view['limit']['ratio'])} x once; {percent(dram['of_peak'])} of peak",
+        ),
+        (
+            "energy",
+            f"{number(1e3 * energy['total_j'])} mJ",
+            f"{number(1e3 * joules['low'])} .. {number(1e3 * joules['high'])} mJ; "
+            f"{number(energy['mean_power_w'])} W",
+        ),
+        (
+            "area",
+            f"{number(area['total'])} mm²",
+            f"{number(squares['low'])} .. {number(squares['high'])} mm², "
+            f"{view['provenance']['technology']}"
+            + (f"; {more} mm² with PHY and controller of the memory" if more else ""),
+        ),
+        (
+            "binds",
+            view["binding"]["unit"],
+            f"works {percent(view['binding']['utilisation'])} of the frame",
+        ),
+    )
+    return (
+        "<dl class=cards>"
+        + "".join(
+            f"<div><dt>{escaped(name)}</dt><dd><b>{escaped(value)}</b>"
+            f"<small>{escaped(note)}</small></dd></div>"
+            for name, value, note in cards
+        )
+        + "</dl>"
+    )
+
+
+def binding(view: dict) -> str:
+    return f"<p class=note><b>What binds.</b> {escaped(view['binding']['explanation'])}</p>"
+
+
+def left_out(view: dict) -> str:
+    rows = [
+        (entry["what"].replace("_", " "), number(entry["count"]), entry["why"], entry["saves"])
+        for entry in view["left_out"]
+    ]
+    return charts.table(("left out", "count", "why", "saves"), rows, numeric=(1,))
+
+
+def counters(view: dict) -> str:
+    rows = [
+        (unit, name.replace("_", " "), number(count))
+        for unit, of_unit in view["units"].items()
+        for name, count in of_unit["counters"].items()
+    ]
+    return charts.table(("unit", "counter", "count"), rows, numeric=(2,))
+
+
+def configuration(view: dict) -> str:
+    why = {entry["key"]: entry["why"] for entry in view.get("chosen", ())}
+
+    def text(value: object) -> str:
+        return str(value).lower() if isinstance(value, bool) else str(value)
+
+    rows = [(key, text(value), why.get(key, "")) for key, value in flat(view["config"])]
+    head = ("key", "value", "where it was left open: why the model chose it")
+    facts = view["provenance"]
+    made = (
+        f"Version {facts['version']}, commit {facts['commit']}; technology {facts['technology']}; "
+        f"memory image {facts.get('memory_image_xxh64', 'unknown')}; "
+        f"{number(view['host']['simulation_wall_s'])} s of wall time."
+    )
+    return (
+        "<p>To run it again:</p><div class=command>"
+        f"<code tabindex=0>{escaped(facts['command'])}</code>"
+        "<button type=button>copy</button></div>"
+        f"<p class=small>{escaped(made)}</p>"
+        + charts.details(f"all {len(rows)} keys of the configuration", charts.table(head, rows))
+        + charts.details("counters of the units", counters(view))
+    )
+
+
+def panel_of_view(files: ViewFiles, uris: dict[str, str], name: str, remark: str) -> str:
+    """Everything about a view."""
+    view = files.report
+    sections = (
+        ("Picture", pictures(files, uris, name, remark), "wide"),
+        ("Where the time goes", costs.time(view), "wide"),
+        ("Energy", costs.energy(view), ""),
+        ("DRAM traffic", costs.traffic(view), ""),
+        ("Area", costs.area(view), ""),
+        ("Left out", left_out(view), ""),
+        ("Over the picture, by group", heat_maps(files), "wide"),
+        ("Configuration", configuration(view), "wide"),
+    )
+    body = "".join(
+        f'<section class="{size}"><h3>{escaped(title)}</h3>{text}</section>'
+        for title, text, size in sections
+    )
+    return key_numbers(view) + binding(view) + f"<div class=grid>{body}</div>"
+
+
+HEAT_MAPS = (
+    ("cycles", "Cycles of rendering", "cycles"),
+    ("bytes", "Bytes asked for", "B"),
+    ("misordered", "Blends out of order", "blends"),
+    ("missed", "Splats missed", "splats"),
+    ("blends", "Blends", "blends"),
+)
+
+
+def pictures(files: ViewFiles, uris: dict[str, str], name: str, remark: str) -> str:
+    """uris: data of the pictures that are embedded, by what they show. name: a prefix of ids."""
+    if "frame" not in uris:
+        return f"<p class=note>{escaped(remark or 'No pictures lie beside this report.')}</p>"
+    others = [what for what in uris if what != "frame"]
+    width, height = files.report["frame"]["width_px"], files.report["frame"]["height_px"]
+    layers = "".join(
+        f'<div class=layer data-what={what} {"" if at == 0 else "hidden"}>'
+        f'<img src="{uris[what]}" alt="{escaped(alt_text(what))}" '
+        f'style="height:{tallness(files, what):.3f}%"></div>'
+        for at, what in enumerate(others)
+    )
+    choices = "".join(
+        f'<label><input type=radio name="{name}-with" value={what} {"checked" if at == 0 else ""}>'
+        f"<span>{escaped(what)}</span></label>"
+        for at, what in enumerate(others)
+    )
+    note = f"<p class=small>{escaped(remark)}</p>" if remark else ""
+    slider = (
+        f"<fieldset class=choice><legend>frame beside</legend>{choices}</fieldset>"
+        f"<label class=slide><span>frame</span><input type=range min=0 max=100 value=50 step=1 "
+        f'aria-label="how much of the picture shows the frame, in per cent">'
+        f"<span class=other>{escaped(others[0])}</span></label>"
+        if others
+        else ""
+    )
+    return (
+        f'<div class=compare style="--w:{width};--h:{height}">'
+        f'<div class=stage><img src="{uris["frame"]}" alt="frame, as read back from DRAM">'
+        f"{layers}<i class=edge></i></div>{slider}"
+        "<p class=legend-of-error hidden>0.002 or less <i></i> 1: channel error, logarithmic</p>"
+        f"{note}{error_parts(files.report)}</div>"
+    )
+
+
+def alt_text(what: str) -> str:
+    texts = {"reference": "picture of the reference renderer", "error": "largest channel error"}
+    return texts.get(what, f"squared error of what was {what}")
+
+
+def tallness(files: ViewFiles, what: str) -> float:
+    """Of a picture, in per cent of the frame's height: the legend of an error map stands beside it,
+    and may be taller."""
+    (_, frame), (_, height) = (size_of(files.pictures[name].png) for name in ("frame", what))
+    return 100 * height / frame
+
+
+def share_text(share: float | None) -> str:
+    """None: the picture has no error to share."""
+    return "none" if share is None else percent(share)
+
+
+def error_parts(view: dict) -> str:
+    """What an order that loses has lost, where."""
+    parts = {
+        name: part
+        for name, part in view["image"].get("error_parts", {}).items()
+        if part is not None
+    }
+    if not parts:
+        return ""
+    shares = ", ".join(
+        f"{name.replace('_', ' ')} {share_text(part['share'])}" for name, part in parts.items()
+    )
+    missed, misordered, blends = (
+        number(view["image"][count]) for count in ("missed", "misordered", "blends")
+    )
+    counts = f"{missed} splats missed by a group, {misordered} of {blends} blends out of order"
+    return f"<p class=small>Of the squared error: {escaped(shares)}. {escaped(counts)}.</p>"
+
+
+def heat_maps(files: ViewFiles) -> str:
+    columns = [entry for entry in HEAT_MAPS if files.groups.get(entry[0])]
+    if not columns:
+        return (
+            "<p class=small>This machine has no groups of pixels, or its results no groups.csv.</p>"
+        )
+    maps = (charts.heat_map(title, unit, files.groups, name) for name, title, unit in columns)
+    return f"<div class=heats>{''.join(maps)}</div>"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -29,7 +248,7 @@ class Panel:
 
 
 def text_of(panel: Panel, at: int, uris: dict[str, str], remark: str) -> str:
-    return panel.text or view.panel(panel.files, uris, f"v{at}", remark)
+    return panel.text or panel_of_view(panel.files, uris, f"v{at}", remark)
 
 
 def fitted(panels: Sequence[Panel], room: int) -> list[str]:

@@ -11,7 +11,7 @@ from reporting.charts import escaped, number, rate
 from reporting.costs import KINDS_OF_ENERGY, WAYS, kinds_of_energy, ways_of_bytes
 from reporting.folder import Run, Table, ViewFiles
 from tables import REQUIRED, measure_of
-from reporting.view import mm2_with_phy, quality
+from reporting.page import mm2_with_phy, quality
 
 MOST_ROWS = 2000  # of a table that are shown
 # Columns that are drawn at first where they are there, the likelier ones first.

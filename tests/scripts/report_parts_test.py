@@ -9,7 +9,7 @@ import zlib
 
 import in_folder  # noqa: F401, isort: skip (finds the scripts)
 from runs import files
-from reporting import charts, costs, tables, view
+from reporting import charts, costs, page, tables
 from reporting.folder import Table
 
 
@@ -72,7 +72,7 @@ class Parts(unittest.TestCase):
 
     def test_a_share_of_no_error(self):
         for share, text in ((None, "none"), (0, "0 %"), (0.5, "50 %"), (0.012, "1.2 %")):
-            self.assertEqual(view.share_text(share), text)
+            self.assertEqual(page.share_text(share), text)
 
     def test_levels_of_json(self):
         deep = json.loads("[" * 300 + "]" * 300)
