@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "algorithm/files/input_error.h"
-#include "algorithm/files/nearest_name.h"
 #include "testbench/command_line/presets.h"
 
 namespace sgs {

@@ -17,7 +17,8 @@ void SampledRays::place_tables(const PaperVsuConfig& config, const VoxelGrid& gr
   RenamingPlace& place = job.renaming;
   place.cells = occupied_cells(grid);
   // Refused here, ahead of what is built and drawn.
-  sample_space(job.view.position, grid.frame, place.cells, config.rays().sample_step_voxels);
+  sample_space(job.view.position, grid.frame, place.cells, config.rays().sample_step_voxels,
+               config.rays().sample_far_voxels);
   place.numbers = table.numbers;
   place.look_up = table.look_up;
   place.records =

@@ -226,9 +226,9 @@ TEST_CASE("cell samples: the distance from the eye's cell rises from cell to cel
   none.begin({0, 0, 0});
   CHECK(none.done());
   // A sample whose number is too large to count on would be taken for ever.
-  CHECK_NOTHROW(sample_space({0, 0, 0}, frame, {50, 40, 30}, 1e-5F));
+  CHECK_NOTHROW(sample_space({0, 0, 0}, frame, {50, 40, 30}, 1e-5F, 0));
   for (const auto& [eye, step] : {std::pair(0.0F, 1e-6F), std::pair(1e7F, 0.5F)}) {
-    CHECK_THROWS_AS(sample_space({eye, 0, 0}, frame, {50, 40, 30}, step), InputError);
+    CHECK_THROWS_AS(sample_space({eye, 0, 0}, frame, {50, 40, 30}, step, 0), InputError);
   }
 }
 
