@@ -13,7 +13,7 @@
 #include "testbench/builtin/builtin_scene.h"
 #include "testbench/builtin/open_scene.h"
 #include "testbench/units/job_memory.h"
-#include "testbench/units/random_splats.h"
+#include "testbench/units/random_scene.h"
 #include "tests/modules/clocked/comparison.h"
 #include "tests/modules/streaminggs/rtl/rtl_rendering.h"
 #include "tests/support/shared_inputs.h"

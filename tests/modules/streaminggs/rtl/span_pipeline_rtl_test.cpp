@@ -8,7 +8,7 @@
 
 #include "Vspan_pipeline.h"
 #include "algorithm/render/group_state.h"
-#include "testbench/units/random_splats.h"
+#include "testbench/units/random_scene.h"
 
 namespace sgs::test {
 namespace {
