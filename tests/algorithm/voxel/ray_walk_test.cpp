@@ -280,7 +280,7 @@ TEST_CASE("renaming table: a box with too many cells is refused by its form") {
                     Catch::Contains("27 bits, expected at most 24, or hashed"));
   const VoxelGrid fine = arrange_by_voxels(cloud, 0.001F).table;
   CHECK_THROWS_WITH(renaming_table(fine, RenamingForm::kHashed),
-                    Catch::Contains("57 bits, expected at most 40"));
+                    Catch::Contains("57 bits, expected at most 44"));
 }
 
 }  // namespace
