@@ -369,7 +369,8 @@ TEST_CASE("configuration: what describe lists of report.json is what reports hol
   write_ply(scratch.path("scene.ply"), open_scene(scene[0]).cloud);
   std::set<std::string> paths;
   for (const Arguments& run :
-       {joined(scene, {"--config", "paper", "--set", "storage.vq.iterations=1"}),
+       {joined(scene, {"--config", "paper", "--set", "storage.vq.iterations=1", "--set",
+                       "stated_area_mm2=5"}),
         Arguments{scratch.path("scene.ply"), "--cameras", scratch.path("cameras.json"), "--size",
                   "64x36", "--scene-axes", "rub"},
         joined(scene, {"--config", "gscore"}),
@@ -393,7 +394,7 @@ TEST_CASE("configuration: a view that fails is named, loses no other, and ends w
   REQUIRE(report["failed"].size() == 1);
   CHECK(report["failed"][0]["view"] == 1);
   REQUIRE(run_streaminggs({"simulate", "builtin:object?n=100", "--size", "32x18", "--path",
-                           "turntable", "--frames", "2", "--out", scratch.path("path")})
+                           "builtin:path", "--frames", "2", "--out", scratch.path("path")})
               .status == 0);
   std::set<std::string> paths;
   add_paths(report, "", paths);
