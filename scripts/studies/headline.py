@@ -185,13 +185,12 @@ def area_ratios(program: pathlib.Path, pair: Pair, channels: int) -> tuple[list[
 
 def about(compared_scenes: Sequence[str], tuned_scenes: Sequence[str]) -> str:
     return (
-        "Geometric means over trained scenes. Alone: a frame begins when the one before it has ended. "
-        "Overlapped: when the busiest part is free, a bound that no machine here reaches. Beside "
-        f"gscore: {', '.join(compared_scenes)}, two sizes each. {named(TUNED_PAIR)}: "
-        f"{', '.join(tuned_scenes)}, small pictures, each tuned to either machine; dB beside "
-        "photographs or own pictures. Both searched: each order with the fastest machine that a "
-        "search found in the area of paper, untuned scenes at two sizes; below 1 the paper order is "
-        "ahead, with another picture."
+        "Geometric means over trained scenes; below 1 the baseline is ahead. Alone: a frame begins "
+        "when the one before it has ended. Overlapped: when the busiest part is free, a bound that no "
+        f"machine here reaches. Beside gscore: {', '.join(compared_scenes)}, two sizes each. "
+        f"{named(TUNED_PAIR)}: {', '.join(tuned_scenes)}, small pictures, each tuned to either "
+        "machine. Both searched: each order with the fastest machine that a search found in the area "
+        "of paper, untuned scenes."
     )
 
 
