@@ -65,6 +65,8 @@ void check_place(const std::string& path) {
   }
 }
 
+constexpr unsigned kMostTries = 1000;  // to make folders that others take away
+
 std::array<std::atomic<const char*>, 256> parts;
 pid_t owner = 0;
 
@@ -91,13 +93,15 @@ void exchange(const char* from, const char* to) {
 
 OutputFile::OutputFile(std::string path) : path_(std::move(path)), made_folders_{{}, ::getpid()} {
   check_place(path_);
-  make_folders();
   int descriptor = -1;
   for (unsigned number = 0; descriptor < 0; ++number) {
+    make_folders();
     temporary_path_ = temporary_name(path_, number);
     constexpr ::mode_t kMode = 0666;  // less the user's mask
     descriptor = ::open(temporary_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
-    if (descriptor < 0 && errno != EEXIST) {
+    // Another process takes a folder that it made and left empty away again.
+    const bool again = errno == EEXIST || (errno == ENOENT && number < kMostTries);
+    if (descriptor < 0 && !again) {
       refuse(path_, fmt::format("cannot be made ({})", std::strerror(errno)), "a writable place");
     }
   }
@@ -123,9 +127,11 @@ void OutputFile::make_folders() {
   for (const fs::path& name : folder.lexically_relative(there)) {
     if (name == ".") continue;
     made /= name;
-    // Another process may have been faster.
+    // Another process may have been faster, or have taken the one above away.
     if (::mkdir(made.c_str(), 0777) == 0) {
       made_folders_.paths.push_back(made.string());
+    } else if (errno == ENOENT) {
+      return;
     } else if (errno != EEXIST) {
       refuse(path_, fmt::format("{}: {}", made.string(), std::strerror(errno)),
              "a folder that can be made");

@@ -6,9 +6,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <csignal>
+#include <filesystem>
 #include <functional>
+#include <thread>
 #include <vector>
 
 #include "algorithm/files/input_file.h"
@@ -146,6 +149,27 @@ TEST_CASE("output file: folders are made, and removed again without commit") {
   }
   CHECK(std::filesystem::exists(scratch.path("x/y/a.txt")));
   CHECK_FALSE(std::filesystem::exists(scratch.path("x/z")));
+}
+
+TEST_CASE("output file: folders that another writer makes and takes away do not matter") {
+  const test::ScratchFolder scratch;
+  std::atomic<bool> done{false};
+  std::thread other([&] {
+    while (!done) OutputFile(scratch.path("common/theirs/out.bin"));
+  });
+  std::size_t written = 0;
+  for (int i = 0; i < 2000; ++i) {
+    OutputFile file(scratch.path("common/ours/out.bin"));
+    file.write("x", 1);
+    written += i % 2;
+    if (i % 2 == 1) {
+      file.commit();
+      std::filesystem::remove_all(scratch.path("common/ours"));
+    }
+  }
+  done = true;
+  other.join();
+  CHECK(written == 1000);
 }
 
 TEST_CASE("output file: places that cannot be files are refused, and left as they are") {
