@@ -26,7 +26,7 @@ if(BUILD_TESTING)
   endif()
   set(computing ${tests})
   list(FILTER computing INCLUDE REGEX "^(builtin|clocked|datapath|datapath_rtl|dram|fixed_point_sums\
-|gscore_clocked|gscore_parts|order|render|rendering_rtl|splat|stability|stiff_tuning|storage\
+|gscore_clocked|gscore_parts|order|ordering_rtl|render|rendering_rtl|splat|stability|stiff_tuning|storage\
 |streaminggs_parts|tlm|train|tune|vq|voxel)_test$")
   list(REMOVE_ITEM tests ${computing})
 endif()

@@ -17,19 +17,13 @@
 #include "modules/streaminggs/finished_subtiles.h"
 #include "modules/streaminggs/merge/merge_config.h"
 #include "modules/streaminggs/messages.h"
+#include "modules/streaminggs/nearer_key.h"
 #include "modules/streaminggs/spill_runs.h"
 #include "modules/streaminggs/unit_context.h"
 #include "tlm/data_sheet.h"
 #include "tlm/fifo_if.h"
 
 namespace sgs {
-
-// The final order. No two keys of a group have the same slot.
-struct NearerKey {
-  bool operator()(const FineCandidate& a, const FineCandidate& b) const {
-    return a.depth < b.depth || (a.depth == b.depth && a.slot < b.slot);
-  }
-};
 
 class MergeUnit : public sc_core::sc_module {
  public:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "modules/streaminggs/nearer_key.h"
 #include "modules/streaminggs/sorting/sorting_cost.h"
 
 namespace sgs {
@@ -35,9 +36,7 @@ void ExactSorter::run() {
       list.push_back(key);
       key = input.pop(sort_);
     }
-    std::sort(list.begin(), list.end(), [](const FineCandidate& a, const FineCandidate& b) {
-      return a.depth < b.depth || (a.depth == b.depth && a.slot < b.slot);
-    });
+    std::sort(list.begin(), list.end(), NearerKey{});
     const SortingCost cost = sort_cost(config_, list.size());
     sort_.work(cost.cycles);
     ++counters_.visits;
