@@ -36,6 +36,7 @@ BUDGETS = {
     "modules/streaminggs/README.md": 2500,
     "modules/streaminggs/hfu/README.md": 700,
     "modules/streaminggs/merge/README.md": 600,
+    "modules/streaminggs/merge/rtl/README.md": 300,
     "modules/streaminggs/rendering/README.md": 700,
     "modules/streaminggs/rendering/rtl/README.md": 600,
     "modules/streaminggs/sorting/README.md": 20,

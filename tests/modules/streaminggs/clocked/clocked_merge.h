@@ -1,6 +1,7 @@
 // The merge unit register by register: a key at hand, the heap's root with its pace, the spilled
 // runs beside it, and a register ahead of the FIFOs of released keys. That a heap keeps that pace
-// is shown by one that is stepped itself (tests/algorithm/order/stepped_heap.h).
+// is shown by one that is stepped itself (tests/modules/streaminggs/stepped_heap.h) and by one in
+// Verilog (tests/modules/streaminggs/rtl).
 #pragma once
 
 #include <cstdint>
@@ -21,10 +22,27 @@ struct MergeItem {
   std::uint64_t bound = 0;  // of a mark: keys below it are final
 };
 
+// Keys in order. What an operation leaves is seen in the next cycle.
+class ClockedHeap {
+ public:
+  std::size_t size() const { return keys_.size(); }
+  std::uint64_t nearest() const { return *keys_.begin(); }
+  void insert(std::uint64_t key) { keys_.insert(key); }
+  std::uint64_t take_nearest() { return keys_.extract(keys_.begin()).value(); }
+  std::uint64_t take_farthest() { return keys_.extract(std::prev(keys_.end())).value(); }
+  void clear() { keys_.clear(); }
+  void step() {}
+
+ private:
+  std::multiset<std::uint64_t> keys_;
+};
+
+template <class Heap>
 class ClockedMerge {
  public:
-  ClockedMerge(std::uint32_t cycles_per_operation, std::size_t entries, const SpillHardware& spill)
-      : pace_(cycles_per_operation), entries_(entries), spill_(spill) {}
+  ClockedMerge(Heap& heap, std::uint32_t cycles_per_operation, std::size_t entries,
+               const SpillHardware& spill)
+      : heap_(heap), pace_(cycles_per_operation), entries_(entries), spill_(spill) {}
 
   // finished: of a group, whether the news has come; of one that spills it never does.
   template <class Finished>
@@ -43,6 +61,7 @@ class ClockedMerge {
       if (!sent_ && !releasing_) take(in[visit_ % in.size()], finished);
     }
     heap_busy_ -= heap_busy_ > 0 ? 1 : 0;
+    heap_.step();
   }
 
  private:
@@ -76,7 +95,7 @@ class ClockedMerge {
   void step_spill() {
     spill_.step([this]() -> std::optional<std::uint64_t> {
       if (!begin_operation()) return {};
-      return heap_.extract(std::prev(heap_.end())).value();
+      return heap_.take_farthest();
     });
   }
 
@@ -84,16 +103,15 @@ class ClockedMerge {
   void release(bool finished) {
     if (finished && !leaves_) heap_.clear();
     const std::optional<std::uint64_t> spilled = spill_.nearest();
-    if (spilled && (heap_.empty() || *spilled < *heap_.begin()) && *spilled < mark_.bound) {
+    if (spilled && (heap_.size() == 0 || *spilled < heap_.nearest()) && *spilled < mark_.bound) {
       sent_ = MergeItem{*spilled};
       sent_of_run_ = true;
       return;
     }
-    if (!heap_.empty() && *heap_.begin() < mark_.bound) {
+    if (heap_.size() > 0 && heap_.nearest() < mark_.bound) {
       leaves_ = !begin_operation();
       if (leaves_) return;
-      sent_ = MergeItem{*heap_.begin()};
-      heap_.erase(heap_.begin());
+      sent_ = MergeItem{heap_.take_nearest()};
       return;
     }
     releasing_ = false;
@@ -102,10 +120,10 @@ class ClockedMerge {
     sent_ = mark_;
   }
 
+  Heap& heap_;
   const std::uint32_t pace_;
   const std::size_t entries_;
   ClockedSpill spill_;
-  std::multiset<std::uint64_t> heap_;
   std::uint32_t heap_busy_ = 0;  // cycles until it begins another operation
   std::optional<MergeItem> at_hand_, sent_;
   MergeItem mark_;

@@ -2,14 +2,11 @@
 #include <catch2/catch.hpp>
 
 #include "modules/streaminggs/exact_config.h"
-#include "testbench/units/merge_run.h"
 #include "tests/modules/clocked/comparison.h"
-#include "tests/modules/streaminggs/clocked/clocked_merge.h"
+#include "tests/modules/streaminggs/clocked/merge_setting.h"
 
 namespace sgs::test {
 namespace {
-
-constexpr std::uint64_t kMergeMark = ~std::uint64_t{0};
 
 struct MergeWorkload {
   const char* name;
@@ -44,95 +41,20 @@ tb::MergePlan plan_of(const MergeWorkload& load, std::uint64_t seed) {
   return plan;
 }
 
-// Depths are multiples of 0.5.
-std::uint64_t depth_of(float depth) {
-  return depth == tb::kInfinity ? kMergeMark >> 20U : static_cast<std::uint64_t>(2 * depth);
+MergeSetting setting_of(const MergeWorkload& load, std::uint64_t seed) {
+  return {plan_of(load, seed),
+          load.port(),
+          load.finishing,
+          seed,
+          {load.in_one_in, load.in_longest},
+          {load.out_one_in, load.out_longest}};
 }
-std::uint64_t key_of(float depth, std::uint32_t slot) { return depth_of(depth) << 16U | slot; }
-std::uint64_t what_of_key(const FineCandidate& key) {
-  return key.mark == Mark::kNone ? key_of(key.depth, key.slot) : kMergeMark;
-}
-
-// [sorter] what it hands on.
-std::vector<std::vector<FineCandidate>> inputs_of(const tb::MergePlan& plan) {
-  std::vector<std::vector<FineCandidate>> inputs(plan.sorters);
-  std::uint32_t number = 0;
-  for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
-    const std::vector<tb::MergeVisit>& visits = plan.groups[g].visits;
-    for (std::size_t v = 0; v <= visits.size(); ++v, ++number) {
-      std::vector<FineCandidate>& to = inputs[number % plan.sorters];
-      FineCandidate end;
-      end.group = g;
-      end.visit = number;
-      end.mark = v < visits.size() ? Mark::kEndOfVisit : Mark::kEndOfGroup;
-      end.release_below = v < visits.size() ? visits[v].release_below : tb::kInfinity;
-      if (v < visits.size()) {
-        for (const tb::MergeKey& key : visits[v].keys) to.push_back(tb::candidate(g, number, key));
-      }
-      to.push_back(end);
-    }
-  }
-  return inputs;
-}
-
-// Until the marks of all groups are there.
-bool all_released(const tb::MergePlan& plan, const Takings& taken) {
-  const auto is_mark = [](const Taken& t) { return t.what == kMergeMark; };
-  return static_cast<std::size_t>(std::count_if(taken.begin(), taken.end(), is_mark)) ==
-         plan.groups.size();
-}
-
-// Takes from the FIFOs in turn, as rendering does behind them.
 void run_merge(tb::Case& test, Takings& taken, const MergeWorkload& load, std::uint64_t seed) {
-  const tb::MergePlan plan = plan_of(load, seed);
-  tb::MergeRun run(test, bench_of(load.port(), tb::still_bench(plan).memory_bytes), plan);
-  add_finishing(run.bench, load.finishing, plan.groups.size(), run.finished.channel);
-  const std::vector<std::vector<FineCandidate>> inputs = inputs_of(plan);
-  for (std::uint32_t s = 0; s < plan.sorters; ++s) {
-    add_source(run.bench, fmt::format("sorter{}", s), inputs[s],
-               {seed + s, load.in_one_in, load.in_longest}, *run.inputs[s]);
-  }
-  const Pace pace(seed + 1000, load.out_one_in, load.out_longest);
-  run.bench.add_thread("reader", [&](Activity& activity) {
-    while (!all_released(plan, taken)) {
-      run.bench.clock().wait_cycles(pace.gap(taken.size()));
-      const std::uint64_t what = what_of_key(run.outputs[taken.size() % plan.hfus]->pop(activity));
-      taken.push_back({run.bench.clock().now_cycles(), what});
-    }
-  });
-  run.bench.run();
+  run_merge_unit(test, taken, setting_of(load, seed));
 }
-
 Takings clocked_merge(const MergeWorkload& load, std::uint64_t seed) {
-  const tb::MergePlan plan = plan_of(load, seed);
-  const RegionSpan spill = tb::merge_job(plan).spill;
-  ClockedMerge unit(
-      load.cycles_per_operation, load.entries,
-      {load.spill_runs, load.spill_block_entries, load.port(), spill.base, spill.bytes / 2});
-  std::vector<ClockedFifo<MergeItem>> in, out;
-  std::vector<ClockedSource<MergeItem>> sources;
-  std::uint64_t number = 0;
-  for (const std::vector<FineCandidate>& keys : inputs_of(plan)) {
-    std::vector<MergeItem> items;
-    for (const FineCandidate& key : keys) {
-      const bool is_mark = key.mark != Mark::kNone;
-      items.push_back({what_of_key(key), key.group, is_mark, key.mark == Mark::kEndOfGroup,
-                       depth_of(key.release_below) << 16U});
-    }
-    sources.emplace_back(std::move(items), Pace(seed + number++, load.in_one_in, load.in_longest));
-    in.emplace_back(plan.input_entries);
-  }
-  for (std::uint32_t h = 0; h < plan.hfus; ++h) out.emplace_back(plan.output_entries);
-  ClockedSink<MergeItem> sink({seed + 1000, load.out_one_in, load.out_longest});
-  for (std::uint64_t now = 0; !all_released(plan, sink.taken()); ++now) {
-    sink.step(out[sink.taken().size() % out.size()], now,
-              [](const MergeItem& item) { return item.key; });
-    unit.step(in, out, [&](std::uint32_t group) { return load.finishing.seen(group, now); });
-    for (std::size_t s = 0; s < in.size(); ++s) sources[s].step(in[s]);
-    for (ClockedFifo<MergeItem>& fifo : in) fifo.step();
-    for (ClockedFifo<MergeItem>& fifo : out) fifo.step();
-  }
-  return sink.taken();
+  ClockedHeap heap;
+  return clocked_merge_unit(setting_of(load, seed), heap);
 }
 
 void compare(Comparison& table, const MergeWorkload& load) {
