@@ -59,15 +59,7 @@ DramStats DramController::stats() {
     stats.forwarded_reads += channels_[c].queued.forwarded_reads();
   }
   stats.ranks = commands_.activity.ranks(cycle);
-  const std::string& chosen =
-      config_.current_set.empty() ? memspec_.default_currents : config_.current_set;
-  for (const auto& [name, currents] : memspec_.currents) {
-    const DramEnergy energy =
-        dram_energy(memspec_, currents, stats.ranks, commands_.activity.regions(),
-                    config_.io_pj_per_bit_of(memspec_));
-    stats.energy_by_current_set_pj[name] = energy.total_pj();
-    if (name == chosen) stats.energy = energy;
-  }
+  stats.energy = dram_energy_band(memspec_, config_, stats.ranks, commands_.activity.regions());
   return stats;
 }
 

@@ -13,8 +13,9 @@ std::uint32_t DramConfig::buses(const Memspec& device) const {
   return channels * device.organisation.pseudo_channels;
 }
 
-double DramConfig::io_pj_per_bit_of(const Memspec& device) const {
-  return io_pj_per_bit.value_or(device.io_pj_per_bit);
+IoEnergy DramConfig::io_pj_per_bit_of(const Memspec& device) const {
+  if (io_pj_per_bit) return {*io_pj_per_bit, *io_pj_per_bit, *io_pj_per_bit};
+  return {device.least_io_pj_per_bit(), device.io_pj_per_bit, device.most_io_pj_per_bit()};
 }
 
 std::uint32_t DramConfig::refreshes_postponed(const Memspec& device) const {

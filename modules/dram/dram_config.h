@@ -17,6 +17,12 @@ enum class ReadStrobe { kMin, kMax };
 enum class SchedulerKind { kFrFcfs, kFcfs };
 enum class PagePolicyKind { kOpen, kClosed, kAdaptive };
 enum class RefreshMode { kOff, kAllBank, kPerBank };
+enum class BetweenFrames { kByIdleCycles, kPowerDown, kSelfRefresh };
+
+// Picojoules of a transferred bit: what is taken, and the ends of what its sources allow.
+struct IoEnergy {
+  double low = 0, middle = 0, high = 0;
+};
 
 struct DramConfig {
   std::string memspec = "lpddr3_1600_4gb";
@@ -44,13 +50,16 @@ struct DramConfig {
   std::int32_t refresh_postpone_max = -1;       // negative: by the memspec
   std::uint32_t power_down_idle_cycles = 0;
   std::uint32_t self_refresh_idle_cycles = 0;
+  // The accelerator knows when a frame is done, and when the next one begins.
+  BetweenFrames between_frames = BetweenFrames::kSelfRefresh;
 
   std::string current_set;
   std::optional<double> io_pj_per_bit;  // none: the memspec's
 
   // Data buses: pseudo-channels of all channels.
   std::uint32_t buses(const Memspec& device) const;
-  double io_pj_per_bit_of(const Memspec& device) const;
+  // A number that is given has no band.
+  IoEnergy io_pj_per_bit_of(const Memspec& device) const;
   // Without a value of its own none where the device names the bank of a refresh, else the
   // memspec's limit.
   std::uint32_t refreshes_postponed(const Memspec& device) const;
@@ -109,6 +118,12 @@ inline void visit(ConfigVisitor& v, DramConfig& c) {
     "idle time of a rank before power-down; 0: never");
   v("self_refresh_idle_cycles", c.self_refresh_idle_cycles, in_range(0, 100000000),
     "idle time of a rank before self-refresh; 0: never");
+  v("between_frames", c.between_frames,
+    names<BetweenFrames>({{"by_idle_cycles", BetweenFrames::kByIdleCycles},
+                          {"power_down", BetweenFrames::kPowerDown},
+                          {"self_refresh", BetweenFrames::kSelfRefresh}}),
+    "where ranks go from a frame's end until the next one begins at a fixed rate; by_idle_cycles: "
+    "as within a frame");
   v("current_set", c.current_set, "set of currents of the memspec; empty: its default");
   v("io_pj_per_bit", c.io_pj_per_bit, in_range(0.0, 100.0),
     "I/O energy added to each transferred bit; null: the memspec's");

@@ -186,4 +186,30 @@ DramEnergy dram_energy(const Memspec& m, const Memspec::Currents& c,
   return sum;
 }
 
+DramEnergyBand dram_energy_band(const Memspec& m, const DramConfig& config,
+                                const std::vector<RankActivity>& ranks,
+                                const std::array<RegionActivity, 256>& regions) {
+  const std::string& chosen = config.current_set.empty() ? m.default_currents : config.current_set;
+  const IoEnergy io = config.io_pj_per_bit_of(m);
+  const double spread = m.spread_of_currents();
+  std::uint64_t bursts = 0;
+  for (const RankActivity& a : ranks) bursts += a.reads + a.writes;
+  const double bits = 8.0 * m.burst_bytes() * static_cast<double>(bursts);
+  DramEnergyBand band;
+  for (const auto& [name, currents] : m.currents) {
+    const DramEnergy energy = dram_energy(m, currents, ranks, regions, io.middle);
+    const double by_currents_pj = energy.total_pj() - energy.vdd2.io_pj;
+    const double least_pj = by_currents_pj / spread + bits * io.low;
+    const bool first = band.by_current_set_pj.empty();
+    band.least_pj = first ? least_pj : std::min(band.least_pj, least_pj);
+    band.most_pj = std::max(band.most_pj, by_currents_pj * spread + bits * io.high);
+    band.by_current_set_pj[name] = energy.total_pj();
+    if (name == chosen) static_cast<DramEnergy&>(band) = energy;
+  }
+  // With a band of no width, sums in another order may differ in their last digit.
+  band.least_pj = std::min(band.least_pj, band.total_pj());
+  band.most_pj = std::max(band.most_pj, band.total_pj());
+  return band;
+}
+
 }  // namespace sgs

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "modules/dram/command.h"
@@ -103,5 +105,15 @@ class ActivityMeter {
 DramEnergy dram_energy(const Memspec& memspec, const Memspec::Currents& currents,
                        const std::vector<RankActivity>& ranks,
                        const std::array<RegionActivity, 256>& regions, double io_pj_per_bit);
+
+// The energy by the configured set of currents, and what is known of it.
+struct DramEnergyBand : DramEnergy {
+  std::map<std::string, double> by_current_set_pj;  // all that are published
+  // Of all sets, with the ends of their spread and of the I/O's band.
+  double least_pj = 0, most_pj = 0;
+};
+DramEnergyBand dram_energy_band(const Memspec& memspec, const DramConfig& config,
+                                const std::vector<RankActivity>& ranks,
+                                const std::array<RegionActivity, 256>& regions);
 
 }  // namespace sgs

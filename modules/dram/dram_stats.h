@@ -112,9 +112,8 @@ struct DramStats {
   LatencyHistogram write_latency_cycles;  // arrival to last datum, also of posted writes
   std::uint64_t forwarded_reads = 0;      // answered from the write queue
 
-  std::vector<RankActivity> ranks;                         // channel * ranks + rank
-  DramEnergy energy;                                       // by the configured set of currents
-  std::map<std::string, double> energy_by_current_set_pj;  // the band between published sets
+  std::vector<RankActivity> ranks;  // channel * ranks + rank
+  DramEnergyBand energy;
 
   DramChannelStats all_channels() const;
   std::uint64_t bytes() const { return traffic.total().bytes; }

@@ -127,6 +127,13 @@ void visit(ConfigVisitor& v, Memspec& m) {
   v.section("hot", m.hot, "rule for dram.memspec=NAME:hot, above 85 degrees Celsius");
   v("io_pj_per_bit", m.io_pj_per_bit, in_range(0.0, 100.0),
     "I/O energy of a transferred bit, which no set of currents has");
+  v("io_pj_per_bit_low", m.io_pj_per_bit_low, in_range(0.0, 100.0),
+    "least that its sources allow, at most io_pj_per_bit; 0: two thirds of it, as of LPDDR3");
+  v("io_pj_per_bit_high", m.io_pj_per_bit_high, in_range(0.0, 100.0),
+    "most, at least io_pj_per_bit; 0: four thirds of it");
+  v("current_spread", m.current_spread, in_range(0.0, 10.0),
+    "factor, both ways, within which the currents of a set are known, at least 1; 0: 1.4 where "
+    "there is one set, else 1");
   v("default_currents", m.default_currents, "the set that is used where none is asked for");
   v.sections("currents", m.currents, "published sets of currents, each under a name");
   v.strings("sources", m.sources,
@@ -265,6 +272,16 @@ class MemspecCheck {
           "{}: io_pj_per_bit: got nothing, expected picojoules of a transferred bit", origin_));
   }
 
+  void energy_bounds() const {
+    const std::string io = fmt::format("io_pj_per_bit {}", m_.io_pj_per_bit);
+    require(m_.io_pj_per_bit_low <= m_.io_pj_per_bit, "io_pj_per_bit_low", m_.io_pj_per_bit_low,
+            "at most " + io);
+    require(m_.io_pj_per_bit_high == 0 || m_.io_pj_per_bit_high >= m_.io_pj_per_bit,
+            "io_pj_per_bit_high", m_.io_pj_per_bit_high, "at least " + io);
+    require(m_.current_spread == 0 || m_.current_spread >= 1, "current_spread", m_.current_spread,
+            "at least 1, or 0");
+  }
+
   void timing() const {
     const Memspec::Timing& t = m_.timing_cycles;
     require(t.ccd >= m_.burst_cycles(), "timing_cycles.ccd", t.ccd,
@@ -336,7 +353,8 @@ class MemspecCheck {
   // A number that its key has by itself needs no source.
   void sources(const KeyCollector& timing, const KeyCollector& without) const {
     std::vector<std::string> known;
-    std::vector<std::string> may_have = {kDefaultSource, "refresh_postpone_limit", "hot"};
+    std::vector<std::string> may_have = {kDefaultSource, "refresh_postpone_limit", "hot",
+                                         "current_spread"};
     for (std::size_t i = 0; i < timing.values.size(); ++i) {
       const auto& [key, value] = timing.values[i];
       const std::vector<std::string>& none = without.zero_keys;
@@ -400,6 +418,7 @@ std::vector<std::string> check_memspec(const Memspec& memspec, const std::string
                                  origin, timing_keys.zero_keys.front()));
   const MemspecCheck check(memspec, origin);
   check.organisation();
+  check.energy_bounds();
   check.timing();
   check.bank_groups();
   check.refresh();

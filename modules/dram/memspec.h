@@ -97,8 +97,11 @@ struct Memspec {
   RefreshOrder refresh_order = RefreshOrder::kInTurn;
   std::uint32_t refresh_postpone_limit = 8;  // refreshes that the standard lets wait
   Hot hot;
-  double io_pj_per_bit = -1;                 // of each transferred bit; negative: not stated
-  std::string default_currents;              // which set is used when none is asked for
+  double io_pj_per_bit = -1;      // of each transferred bit; negative: not stated
+  double io_pj_per_bit_low = 0;   // least that the sources allow; 0: LPDDR3's 2 to the 3 taken
+  double io_pj_per_bit_high = 0;  // most; 0: LPDDR3's 4 to the 3 taken
+  double current_spread = 0;      // factor on the currents, both ways; 0: see spread_of_currents()
+  std::string default_currents;   // which set is used when none is asked for
   std::map<std::string, Currents> currents;  // by the name of the published set
   std::vector<std::string> notes;            // what reading it left open, a line each
   // [key] source of a number; [kDefaultSource]: of all that have none of their own.
@@ -115,6 +118,19 @@ struct Memspec {
   std::uint32_t refreshes_of_set() const {
     const std::uint32_t all_sets = timing_cycles.refi_bank * refresh_sets();
     return std::max(1U, (timing_cycles.refi + all_sets / 2) / all_sets);
+  }
+  double least_io_pj_per_bit() const {
+    return io_pj_per_bit_low > 0 ? io_pj_per_bit_low : io_pj_per_bit * 2 / 3;
+  }
+  double most_io_pj_per_bit() const {
+    return io_pj_per_bit_high > 0 ? io_pj_per_bit_high : io_pj_per_bit * 4 / 3;
+  }
+  // Several sets tell by themselves how far currents are known. LPDDR3's two differ by this factor
+  // at most, at random (testbench/dram).
+  double spread_of_currents() const {
+    constexpr double kOfOneSet = 1.4;
+    if (current_spread > 0) return current_spread;
+    return currents.size() > 1 ? 1 : kOfOneSet;
   }
   std::uint32_t row_bytes() const { return organisation.columns * organisation.width_bits / 8; }
   std::uint32_t bursts_per_row() const { return row_bytes() / burst_bytes(); }

@@ -191,6 +191,14 @@ void CommandLine::real(const char* name, std::optional<double>& value, double lo
   app_->add(name, value, what)->check(in_interval(lo, hi, "a number"));
 }
 
+void CommandLine::reals(const char* name, std::vector<double>& values, double lo, double hi,
+                        const char* what) {
+  app_->add(name, values, what)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(in_interval(lo, hi, "a number"));
+}
+
 // An option that may be repeated takes one value each time: what follows is another argument.
 void CommandLine::texts(const char* name, std::vector<std::string>& values, const char* what) {
   app_->add(name, values, what)->allow_extra_args(false);

@@ -79,6 +79,20 @@ Band memory_interface_area(const FrameResult& frame, const Technology& technolog
          technology.sram.mm2(write_queues(frame, technology));
 }
 
+Band sram_leakage_mw(const MachineResult& machine, const Technology& technology) {
+  Band leakage;
+  for (const SramUse& use : machine.sram_uses) leakage = leakage + technology.sram.leakage_mw(use);
+  return leakage;
+}
+
+// Leakage lasts as long as power is on.
+void add_leakage(CostResult& energy, const MachineResult& machine, double seconds,
+                 const Technology& technology) {
+  add(energy, "logic_leakage",
+      kMw * seconds * (technology.die.logic_leakage_mw_mm2 * clocked_area(machine, technology)));
+  add(energy, "sram_leakage", kMw * seconds * sram_leakage_mw(machine, technology));
+}
+
 // Each burst of a write is put in and taken out.
 Band write_queue_energy_j(const FrameResult& frame, const SramUse& queue, const SramModel& model) {
   std::uint64_t bytes = 0;
@@ -130,17 +144,12 @@ CostResult energy_of(const FrameResult& frame, const Technology& technology) {
   for (const Operations& work : machine.operations) {
     add(energy, work.component, work.count * kPj * technology.part(work.kind).pj);
   }
-  Band sram_leakage;
-  for (const SramUse& use : machine.sram_uses) {
+  for (const SramUse& use : machine.sram_uses)
     add(energy, component_of(use.name), access_energy_j(machine, use, technology.sram));
-    sram_leakage = sram_leakage + technology.sram.leakage_mw(use);
-  }
   const auto cycles = static_cast<double>(frame.cycles);
-  const Band logic = clocked_area(machine, technology);
-  add(energy, "clock", cycles * kPj * (technology.die.clock_pj_mm2_cycle * logic));
-  add(energy, "logic_leakage",
-      kMw * frame.time_s() * (technology.die.logic_leakage_mw_mm2 * logic));
-  add(energy, "sram_leakage", kMw * frame.time_s() * sram_leakage);
+  add(energy, "clock",
+      cycles * kPj * (technology.die.clock_pj_mm2_cycle * clocked_area(machine, technology)));
+  add_leakage(energy, machine, frame.time_s(), technology);
   if (technology.memory_interface.counted) {
     const SramUse queues = write_queues(frame, technology);
     add(energy, kMemoryInterface,
@@ -149,8 +158,28 @@ CostResult energy_of(const FrameResult& frame, const Technology& technology) {
                  technology.sram.leakage_mw(queues)) +
             write_queue_energy_j(frame, queues, technology.sram));
   }
-  const double dram = frame.memory.energy_j;
-  add(energy, "dram", {dram, dram, dram});
+  const MemoryResult& dram = frame.memory;
+  add(energy, "dram", {dram.energy_least_j, dram.energy_j, dram.energy_most_j});
+  return energy;
+}
+
+Band resting_interface_w(const FrameResult& frame, const Rest& rest, const Technology& technology) {
+  const MemoryInterfaceCost& interface = technology.memory_interface;
+  const double stands = rest.self_refresh();
+  const Band channel_mw =
+      (1 - stands) * interface.mw + stands * (interface.mm2 * technology.die.logic_leakage_mw_mm2);
+  return kMw * (priced_channels(frame, technology) * channel_mw +
+                technology.sram.leakage_mw(write_queues(frame, technology)));
+}
+
+CostResult rest_energy_of(const FrameResult& frame, const Rest& rest, double seconds,
+                          const Technology& technology) {
+  CostResult energy;
+  add_leakage(energy, frame.machine, seconds, technology);
+  if (technology.memory_interface.counted)
+    add(energy, kMemoryInterface, seconds * resting_interface_w(frame, rest, technology));
+  const DramEnergyBand& dram = rest.energy;
+  add(energy, "dram", kPj * Band{dram.least_pj, dram.total_pj(), dram.most_pj});
   return energy;
 }
 

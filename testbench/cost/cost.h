@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "modules/dram/rest.h"
 #include "testbench/cost/technology.h"
 #include "testbench/result/frame_result.h"
 
@@ -35,6 +36,16 @@ CostResult area_by_owner(const FrameResult& frame, const Technology& technology)
 // (`clock`); of leakage over the frame (`logic_leakage`, `sram_leakage`); and the memory's
 // (`dram`). Throws InputError as above.
 CostResult energy_of(const FrameResult& frame, const Technology& technology);
+
+// Power of PHY and controller between frames, whether the table counts them or not: while the
+// memory refreshes itself their clocks stand and they leak as logic does; else as in a frame.
+Band resting_interface_w(const FrameResult& frame, const Rest& rest, const Technology& technology);
+
+// Joules between a frame and the next one, in which the machine's clock stands: leakage
+// (`logic_leakage`, `sram_leakage`), the memory's (`dram`), and `memory_interface` where the table
+// counts it.
+CostResult rest_energy_of(const FrameResult& frame, const Rest& rest, double seconds,
+                          const Technology& technology);
 
 // Energy of all accesses of one use of on-chip memory, in joules.
 Band access_energy_j(const MachineResult& machine, const SramUse& use, const SramModel& model);

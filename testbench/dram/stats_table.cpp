@@ -68,7 +68,7 @@ std::string stats_table(const DramStats& s) {
   energy("  power-down", parts.power_down_pj);
   energy("  self-refresh", parts.self_refresh_pj);
   if (parts.io_pj > 0) energy("  I/O (stated adder)", parts.io_pj);
-  for (const auto& set : s.energy_by_current_set_pj)
+  for (const auto& set : s.energy.by_current_set_pj)
     energy(fmt::format("energy by {}", set.first).c_str(), set.second);
   return text;
 }

@@ -135,7 +135,7 @@ StreamResult result_of(const DramStats& stats, double wall_s, std::uint64_t requ
   r.vdd2_power_mw = stats.energy.vdd2.total_pj() / ns;
   r.pj_per_bit = stats.energy.total_pj() / (8 * bytes);
   r.band_low_mw = r.band_high_mw = r.power_mw;
-  for (const auto& set : stats.energy_by_current_set_pj) {
+  for (const auto& set : stats.energy.by_current_set_pj) {
     r.band_low_mw = std::min(r.band_low_mw, set.second / ns);
     r.band_high_mw = std::max(r.band_high_mw, set.second / ns);
   }

@@ -75,10 +75,12 @@ MemoryResult collect_memory(const DramStats& stats, const Regions& regions,
     m.energy_by_region_j.emplace_back(name, stats.energy.by_region_pj[id] * kPj);
   }
   m.energy_by_region_j.emplace_back("standby_and_refresh", stats.energy.shared_pj * kPj);
-  for (const auto& [set, pj] : stats.energy_by_current_set_pj) {
+  for (const auto& [set, pj] : stats.energy.by_current_set_pj) {
     m.energy_by_current_set_j.emplace_back(set, pj * kPj);
   }
   m.energy_j = stats.energy.total_pj() * kPj;
+  m.energy_least_j = stats.energy.least_pj * kPj;
+  m.energy_most_j = stats.energy.most_pj * kPj;
   m.transactions = stats.traffic.total().transactions;
   m.row_hits = all.rows.of(RowOutcome::kHit);
   m.row_misses = all.rows.of(RowOutcome::kMiss);

@@ -95,8 +95,8 @@ void serialize(Archive& a, MemoryResult& r) {
   a(r.bytes, r.bus_bytes, r.traffic, r.bus_bytes_by_region, r.transactions, r.row_hits,
     r.row_misses, r.row_conflicts, r.refreshes, r.bandwidth_gb_s, r.busy_bandwidth_gb_s,
     r.peak_gb_s, r.read_latency_mean_ns, r.read_latency_p50_ns, r.read_latency_p99_ns, r.channels,
-    r.write_queue_entries, r.bus_utilisation, r.remedy, r.energy_j, r.energy_by_current_set_j,
-    r.energy_by_region_j);
+    r.write_queue_entries, r.bus_utilisation, r.remedy, r.energy_j, r.energy_least_j,
+    r.energy_most_j, r.energy_by_current_set_j, r.energy_by_region_j);
 }
 template <class Archive>
 void serialize(Archive& a, FrameResult& r) {

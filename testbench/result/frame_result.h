@@ -121,7 +121,7 @@ struct MemoryResult {
   std::uint32_t channels = 0, write_queue_entries = 0;
   double bus_utilisation = 0;  // data bus of the busiest channel, 0 to 1
   Remedy remedy;               // for more of it
-  double energy_j = 0;
+  double energy_j = 0, energy_least_j = 0, energy_most_j = 0;
   std::vector<std::pair<std::string, double>> energy_by_current_set_j, energy_by_region_j;
 };
 

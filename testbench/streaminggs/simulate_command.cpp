@@ -42,7 +42,6 @@ struct SimulateArguments : SceneArguments {
   std::string timeline_groups;          // "A-B", "A", or empty
   std::string path;                     // the camera's path; empty: views
   std::optional<std::uint32_t> frames;  // along it
-  std::optional<double> frame_rate;     // at which the energy a second is told
   bool print_config = false;
   bool verbose = false;
   std::string command;  // the whole command line
@@ -133,9 +132,14 @@ PathJob path_job(const SimulateArguments& arguments, std::vector<Camera>& keys) 
   for (const std::string& note : sized.notes) fmt::print("{}\n", note);
   for (const auto& [number, camera] : sized.views)
     path.keys[static_cast<std::size_t>(number)] = camera;
+  const std::vector<double>& rates = arguments.run.frame_rates;
+  if (rates.size() > 1) {
+    throw InputError(
+        fmt::format("--frame-rate: got {} rates, expected one with --path", rates.size()));
+  }
   constexpr double kUsualRate = 90;
   const double stated = path.facts.frame_rate.value_or(kUsualRate);
-  return {path.name, frames_along(path, arguments.frames), arguments.frame_rate.value_or(stated)};
+  return {path.name, frames_along(path, arguments.frames), rates.empty() ? stated : rates.front()};
 }
 
 // Prints the machine, the precision if it has one for blending, how the scene is stored, and which
@@ -259,12 +263,11 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
             "drawn");
   line.whole("--frames", arguments->frames, 1U, 100000U,
              "along the path; if not given 60, or those that nerfstudio's states");
-  line.real("--frame-rate", arguments->frame_rate, 1e-3, 1e6,
-            "frames a second at which the path's energy a second is told; if not given 90, or as "
-            "nerfstudio's states");
+  line.reals("--frame-rate", arguments->run.frame_rates, 1e-3, 1e6,
+             "frames a second at which joules a second are told, as in 60,90, with the memory's "
+             "rest between frames; of a path one, if not given 90, or as nerfstudio's states");
   line.excludes("--view", "--path");
   line.needs("--frames", "--path");
-  line.needs("--frame-rate", "--path");
   line.file("--technology", arguments->technology, "table of energy and area");
   BuildOptions& build = arguments->run.build;
   line.real("--stalls", build.stalls.probability, 0, 1,

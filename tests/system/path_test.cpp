@@ -129,13 +129,57 @@ TEST_CASE("path: PHY and controller that are counted take power between frames, 
   json table = json::parse(bytes_of(SGS_TECHNOLOGY));
   table["memory_interface"]["counted"] = true;
   const std::string counted = scratch.write("counted.json", table.dump());
-  const auto idle_w = [&](const std::string& technology) {
-    const json path =
-        run_path(scratch, {"--path", "builtin:path", "--frames", "2", "--technology", technology});
-    return path["summary"]["idle_w"].get<double>();
+  const auto path_by = [&](const std::string& technology) {
+    return run_path(scratch,
+                    {"--path", "builtin:path", "--frames", "2", "--technology", technology});
   };
-  const double channels_mw = 4 * table["memory_interface"]["mw"]["middle"].get<double>();
-  CHECK(idle_w(counted) >= idle_w(SGS_TECHNOLOGY) + 1e-3 * channels_mw);
+  const json with = path_by(counted), without = path_by(SGS_TECHNOLOGY);
+  double joules = 0;
+  for (const json& view : without["views"]) {
+    const json& rest = view["fixed_rates"][0]["rest"];
+    joules += rest["time_s"].get<double>() * rest["memory_interface_w"]["middle"].get<double>();
+  }
+  const auto idle_w = [](const json& path) { return path["summary"]["idle_w"].get<double>(); };
+  CHECK(joules > 0);
+  CHECK(idle_w(with) == Approx(idle_w(without) + joules * 90 / 2));
+}
+
+TEST_CASE("fixed rate: of a view as of a path, and none that is not held") {
+  const ScratchFolder scratch;
+  const Outcome done = run_streaminggs({"simulate", kPathScene, "--size", "96x54", "--view", "0",
+                                        "--frame-rate", "90,1e6", "--out", scratch.path("out")});
+  INFO(done.err);
+  REQUIRE(done.status == 0);
+  const json view = json::parse(bytes_of(scratch.path("out/report.json")))["views"][0];
+  REQUIRE(view["fixed_rates"].size() == 2);
+  const json& rate = view["fixed_rates"][0];
+  CHECK(rate["per_s"] == 90);
+  CHECK(rate["held"] == true);
+  const double rest_s = 1.0 / 90 - view["frame"]["time_s"].get<double>();
+  CHECK(rate["rest"]["time_s"].get<double>() == Approx(rest_s));
+  CHECK(rate["rest"]["self_refresh_s"].get<double>() == Approx(rest_s).epsilon(1e-3));
+  for (const char* end : {"low", "middle", "high"}) {
+    INFO(end);
+    const double both = view["energy"]["bands"]["total_j"][end].get<double>() +
+                        rate["rest"]["bands"]["total_j"][end].get<double>();
+    CHECK(rate["energy_j"][end].get<double>() == Approx(both));
+    CHECK(rate["power_w"][end].get<double>() == Approx(90 * both));
+  }
+  const double leakage_w =
+      view["energy"]["sram_leakage_j"].get<double>() / view["frame"]["time_s"].get<double>();
+  CHECK(rate["rest"]["sram_leakage_j"].get<double>() == Approx(leakage_w * rest_s));
+  CHECK(view["fixed_rates"][1] == json({{"per_s", 1e6}, {"held", false}}));
+  CHECK(done.out.find("at 90 frames a second") != std::string::npos);
+  CHECK(done.out.find("does not hold 1e+06 frames a second") != std::string::npos);
+
+  const Camera camera = make_builtin_scene(kPathScene).cameras[0];
+  write_cameras(scratch.path("keys.json"), {camera, camera});
+  const json path = run_path(scratch, {"--path", scratch.path("keys.json"), "--frames", "2"});
+  CHECK(path["views"][0]["fixed_rates"][0] == rate);
+  CHECK(path["summary"]["energy_a_second_j"].get<double>() ==
+        Approx(rate["power_w"]["middle"].get<double>()));
+  CHECK(path["summary"]["energy_a_second_high_j"].get<double>() ==
+        Approx(rate["power_w"]["high"].get<double>()));
 }
 
 TEST_CASE("path: its files, and those of another run in the folder") {

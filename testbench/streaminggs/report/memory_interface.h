@@ -15,7 +15,7 @@ struct MemoryInterface {
   bool area_known = false;  // it is this one
   std::string area_source;
   // Of a transferred bit.
-  double io_pj_per_bit = 0;
+  double io_pj_per_bit = 0, io_pj_per_bit_low = 0, io_pj_per_bit_high = 0;
   std::string io_source;
 
   // One line: whose PHY and controller are counted, and what I/O energy by which source.

@@ -40,6 +40,10 @@ void visit_view(ReportVisitor& r, const ViewResult& view, const PreparedScene& s
   r.object("binding", [&] { visit_binding(r, view.binding); });
   r.object("dram", [&] { visit_dram(r, run.memory); });
   r.object("energy", [&] { visit_energy(r, view); });
+  if (r.has(!view.fixed_rates.empty())) {
+    r.list("fixed_rates", view.fixed_rates,
+           [&](const FixedRate& rate) { visit_fixed_rate(r, rate); });
+  }
   r.object("memory_interface", [&] { visit_memory_interface(r, view.memory_interface); });
   r.object("area_mm2", [&] { visit_area(r, view); });
   r.object("sram", [&] { visit_sram(r, run.machine, view.sram_model); });

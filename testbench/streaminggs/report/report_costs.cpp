@@ -31,11 +31,13 @@ void visit_traffic(ReportVisitor& r, const MemoryResult& m) {
 
 using Key = ReportVisitor::Key;
 
-void visit_band(ReportVisitor& r, const Key& key, const char* unit, const Band& amount) {
+void visit_band(ReportVisitor& r, const Key& key, const char* unit, const Band& amount,
+                const std::string& what = "The same") {
+  const auto as = [&](const char* values) { return what + " as the " + values + " give it."; };
   r.object(key, [&] {
-    r("low", unit, "The same as the lowest values of the technology table give it.", amount.low);
-    r("middle", unit, "The same as the middle values give it.", amount.middle);
-    r("high", unit, "The same as the highest values give it.", amount.high);
+    r("low", unit, as("lowest values of the sources").c_str(), amount.low);
+    r("middle", unit, as("middle values").c_str(), amount.middle);
+    r("high", unit, as("highest values").c_str(), amount.high);
   });
 }
 
@@ -93,6 +95,8 @@ void visit_memory_interface(ReportVisitor& r, const MemoryInterface& interface) 
     interface.area_source);
   r("io_pj_per_bit", "pJ", "I/O energy of a transferred bit, part of `energy.dram_j`.",
     interface.io_pj_per_bit);
+  r("io_pj_per_bit_low", "pJ", "Least that its source allows.", interface.io_pj_per_bit_low);
+  r("io_pj_per_bit_high", "pJ", "Most that its source allows.", interface.io_pj_per_bit_high);
   r("io_source", "", "Source of that: the memspec's, or `dram.io_pj_per_bit` where that is given.",
     interface.io_source);
 }
@@ -114,6 +118,25 @@ void visit_energy(ReportVisitor& r, const ViewResult& view) {
         "Energy of the memory for this region. `standby_and_refresh` belongs to none.",
         region.second);
     });
+  });
+}
+
+void visit_fixed_rate(ReportVisitor& r, const FixedRate& rate) {
+  r("per_s", "1/s", "Frames that are begun in a second: `--frame-rate`.", rate.per_s);
+  r("held", "bool", "The frame is done before the next one begins. If not, no entry follows.",
+    rate.held);
+  if (!r.has(rate.held)) return;
+  visit_band(r, "energy_j", "J", rate.energy_j, "Energy of a frame and its rest");
+  visit_band(r, "power_w", "W", rate.power_w(), "Power at this rate");
+  r.object("rest", [&] {
+    r("time_s", "s", "Time from the end of the frame until the next one begins.", rate.rest_s);
+    r("power_down_s", "s", "Of it in power-down, mean of the memory's ranks.", rate.power_down_s);
+    r("self_refresh_s", "s", "Of it in self-refresh, likewise.", rate.self_refresh_s);
+    visit_costs(r, rate.rest_j, "_j", "J",
+                "Middle energy of a component in the rest: leakage and DRAM.",
+                "Middle energy of the rest.");
+    visit_band(r, "memory_interface_w", "W", rate.memory_interface_w,
+               "Power of PHY and controller, part of the rest where the technology counts them,");
   });
 }
 

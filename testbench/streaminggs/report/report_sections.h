@@ -21,6 +21,7 @@ void visit_dram(ReportVisitor& r, const MemoryResult& m);
 void visit_memory_interface(ReportVisitor& r, const MemoryInterface& interface);
 
 void visit_energy(ReportVisitor& r, const ViewResult& view);
+void visit_fixed_rate(ReportVisitor& r, const FixedRate& rate);
 void visit_area(ReportVisitor& r, const ViewResult& view);
 
 }  // namespace sgs

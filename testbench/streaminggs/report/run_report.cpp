@@ -66,10 +66,15 @@ void visit_summary(ReportVisitor& r, const PathSummary& s) {
   r("frame_rate", "1/s", "Frames that are begun in a second: `--frame-rate`.", s.rate);
   r("late_frames", "", "Frames after which the next one begins late.", s.late);
   r("empty_frames", "", "Frames to which no Gaussian contributes.", s.empty);
-  r("frames_w", "W", "Energy of frames over the time of all.", s.frames_w);
-  r("idle_w", "W", "Energy between frames over the time of all: leakage, standby and refresh.",
-    s.idle_w);
-  r("energy_a_second_j", "J", "Energy a second: of both.", s.frames_w + s.idle_w);
+  const Band both = s.frames_w + s.idle_w;
+  r("frames_w", "W", "Energy of frames over the time of all.", s.frames_w.middle);
+  r("idle_w", "W",
+    "Energy between frames over the time of all: leakage, and the memory's rest. None after frames "
+    "that are late.",
+    s.idle_w.middle);
+  r("energy_a_second_j", "J", "Energy a second: of both.", both.middle);
+  r("energy_a_second_low_j", "J", "The same with the lowest values of the sources.", both.low);
+  r("energy_a_second_high_j", "J", "The same with the highest values.", both.high);
 }
 
 // The entries of a report of several views.

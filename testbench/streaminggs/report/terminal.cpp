@@ -72,9 +72,36 @@ void print_empty(std::size_t empty, std::size_t all, const char* what) {
 }
 
 void print_energy(const ViewResult& v) {
-  const Band& energy = v.energy_j.total;
-  fmt::print("view {}: energy {:.3f} ({:.3f} .. {:.3f}) mJ\n", v.view, energy.middle * 1e3,
-             energy.low * 1e3, energy.high * 1e3);
+  const MemoryResult& dram = v.run.memory;
+  const Band dram_j{dram.energy_least_j, dram.energy_j, dram.energy_most_j};
+  const auto in_mj = [](const Band& joules) {
+    return fmt::format("{:.3f} ({:.3f} .. {:.3f}) mJ", 1e3 * joules.middle, 1e3 * joules.low,
+                       1e3 * joules.high);
+  };
+  fmt::print("view {}: energy {}, of it DRAM {}\n", v.view, in_mj(v.energy_j.total), in_mj(dram_j));
+}
+
+std::string rounded(const Band& band) {
+  return fmt::format("{} ({} .. {})", rounded(band.middle), rounded(band.low), rounded(band.high));
+}
+
+void print_fixed_rates(const ViewResult& v) {
+  for (const FixedRate& rate : v.fixed_rates) {
+    if (!rate.held) {
+      fmt::print("view {}: does not hold {} frames a second: a frame takes {} ms\n", v.view,
+                 rounded(rate.per_s), rounded(1e3 * v.run.time_s()));
+      continue;
+    }
+    fmt::print(
+        "view {}: at {} frames a second {} W: {} mJ a frame, {} mJ in {} ms of rest\n"
+        "  of the rest the memory is {} in self-refresh, {} in power-down; its PHY and controller "
+        "take {} W{}\n",
+        v.view, rounded(rate.per_s), rounded(rate.power_w()),
+        rounded(1e3 * v.energy_j.total.middle), rounded(1e3 * rate.rest_j.total.middle),
+        rounded(1e3 * rate.rest_s), percent(rate.self_refresh_s / rate.rest_s),
+        percent(rate.power_down_s / rate.rest_s), rounded(rate.memory_interface_w),
+        rate.memory_interface_counted ? "" : ", not counted");
+  }
 }
 
 void print_losses(const ViewResult& v) {

@@ -21,6 +21,10 @@ void print_bottleneck(const ViewResult& view);
 void print_empty(std::size_t empty, std::size_t all, const char* what);
 // Energy with its band.
 void print_energy(const ViewResult& view);
+// "0.31 (0.2 .. 0.47)"
+std::string rounded(const Band& band);
+// Power at the rates that are asked for.
+void print_fixed_rates(const ViewResult& view);
 // What ties of depth, order, arithmetic and encoding cost, where they cost anything.
 void print_losses(const ViewResult& view);
 // Bytes by region that are not 0.

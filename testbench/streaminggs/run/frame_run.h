@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "algorithm/memory/scene_layout.h"
 #include "modules/dram/dram_config.h"
@@ -13,10 +14,11 @@
 namespace sgs {
 
 struct RunOptions {
-  std::string vcd_path;         // empty: no waveform
-  std::string timeline_path;    // empty: none
-  GroupRange timeline_groups;   // groups that the timeline is limited to
-  std::string dram_trace_path;  // empty: no trace of the DRAM commands
+  std::string vcd_path;             // empty: no waveform
+  std::string timeline_path;        // empty: none
+  GroupRange timeline_groups;       // groups that the timeline is limited to
+  std::string dram_trace_path;      // empty: no trace of the DRAM commands
+  std::vector<double> frame_rates;  // frames a second at which power is told
   BuildOptions build;
 };
 

@@ -44,20 +44,6 @@ std::optional<RunConfig> with_codebooks(RunConfig& config, const SecondHalfForma
   return later;
 }
 
-// Power of the machine while it waits for its next frame, in watts.
-double idle_w(const ViewResult& view) {
-  double joules = 0;
-  for (const auto& [component, energy] : view.energy_j.by_component) {
-    for (const char* stays : {"logic_leakage", "sram_leakage", "memory_interface"}) {
-      if (component == stays) joules += energy.middle;
-    }
-  }
-  for (const auto& [region, energy] : view.run.memory.energy_by_region_j) {
-    if (region == "standby_and_refresh") joules += energy;
-  }
-  return view.run.cycles > 0 ? joules / view.run.time_s() : 0;
-}
-
 // A line of the table.
 Json line_of(const Json& report) {
   Json line;
@@ -106,8 +92,8 @@ class DrawnFrames {
   // of_view: its report.
   void add(ViewResult view, const Json& of_view) {
     const std::size_t number = frames_.size();
-    frames_.push_back(
-        {view.run.time_s(), view.energy_j.total.middle, idle_w(view), is_empty(view)});
+    frames_.push_back({view.run.time_s(), view.energy_j.total, view.fixed_rates.at(0).rest_j.total,
+                       is_empty(view)});
     lines_.push_back(line_of(of_view));
     all_equal_ = all_equal_ && view.equals_golden;
     if (view.psnr_db < worst_psnr_db_) worst_picture_ = number;
@@ -133,7 +119,7 @@ class DrawnFrames {
     fmt::print(
         "{} mJ a frame; at {} frames a second {} J a second: {} for frames, {} between them\n",
         rounded(1e3 * s.energy_j / static_cast<double>(s.frames)), rounded(s.rate),
-        rounded(s.frames_w + s.idle_w), rounded(s.frames_w), rounded(s.idle_w));
+        rounded(s.frames_w + s.idle_w), rounded(s.frames_w.middle), rounded(s.idle_w.middle));
     if (s.late > 0) {
       fmt::print("{} of {} frames take longer than 1/{} s: the next one begins late\n", s.late,
                  s.frames, rounded(s.rate));
@@ -179,6 +165,8 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out, b
     break;  // the others likely say the same
   }
   const bool all = setting.detail == Detail::kAll;
+  RunOptions options = setting.options;
+  options.frame_rates = {job.frame_rate};
   std::optional<ProgressLine> progress;
   if (!all) progress.emplace();
   if (all) print_table_head(setting.detail);
@@ -188,7 +176,7 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out, b
     ViewResult view;
     try {
       view = simulate_view(scene, static_cast<int>(i), job.frames[i], machine, setting.technology,
-                           setting.options);
+                           options);
     } catch (const InputError&) {
       throw;  // the configuration is at fault, not the frame
     } catch (const std::runtime_error& error) {

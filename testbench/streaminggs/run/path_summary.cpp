@@ -19,23 +19,25 @@ PathSummary summarise(const std::vector<PathFrame>& frames, double rate) {
   out.frames = frames.size();
   out.rate = rate;
   std::vector<double> times;
-  double idle_j = 0, all_s = 0;
+  Band frames_j, idle_j;
+  double all_s = 0;
   for (const PathFrame& frame : frames) {
     if (frame.time_s > frames[out.worst_frame].time_s) out.worst_frame = times.size();
     times.push_back(frame.time_s);
     const double slot_s = std::max(frame.time_s, 1 / rate);
     out.late += frame.time_s > 1 / rate ? 1 : 0;
     out.empty += frame.empty ? 1 : 0;
-    out.energy_j += frame.energy_j;
-    idle_j += frame.idle_w * (slot_s - frame.time_s);
+    frames_j = frames_j + frame.energy_j;
+    idle_j = idle_j + frame.rest_j;
     all_s += slot_s;
   }
   std::sort(times.begin(), times.end());
   out.worst_fps = 1 / times.back();
   out.p99_fps = fps_at(times, 0.99);
   out.median_fps = fps_at(times, 0.5);
-  out.frames_w = out.energy_j / all_s;
-  out.idle_w = idle_j / all_s;
+  out.energy_j = frames_j.middle;
+  out.frames_w = (1 / all_s) * frames_j;
+  out.idle_w = (1 / all_s) * idle_j;
   return out;
 }
 

@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <vector>
 
+#include "testbench/cost/technology.h"
+
 namespace sgs {
 
-// Time and energy of one frame, and the power while the machine waits for the next one: its
-// leakage, and the memory's standby and refresh. Its clock stands then.
+// Time and energy of one frame, and the energy until the next one begins; none where it is late.
 struct PathFrame {
-  double time_s = 0, energy_j = 0, idle_w = 0;
+  double time_s = 0;
+  Band energy_j, rest_j;
   bool empty = false;  // no Gaussian contributes
 };
 
@@ -22,7 +24,7 @@ struct PathSummary {
   // With a frame begun every 1 / rate, or when the one before it is done: those done later, and the
   // joules a second for frames and between them.
   std::size_t late = 0;
-  double frames_w = 0, idle_w = 0;
+  Band frames_w, idle_w;
 };
 
 // frames: at least one. rate: frames a second. 99 of 100 frames reach p99_fps: it is that of the

@@ -147,6 +147,10 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
   JudgedFrame judged = judge_frame(scene, job, pictures, golden, run.frame);
   ViewResult view = view_result(scene, job, std::move(pictures), std::move(golden),
                                 std::move(judged), std::move(run), config.dram, technology);
+  for (const double per_s : options.frame_rates) {
+    view.fixed_rates.push_back(
+        at_rate(per_s, view.run, view.energy_j.total, config.dram, technology));
+  }
   view.stated_area_mm2 = config.design->stated_area_mm2();
   view.equals_golden = equal;
   view.left_out = std::move(entries);

@@ -11,6 +11,7 @@
 #include "modules/auto_choice.h"
 #include "modules/golden_frame.h"
 #include "testbench/cost/cost.h"
+#include "testbench/cost/fixed_rate.h"
 #include "testbench/result/frame_result.h"
 #include "testbench/streaminggs/report/binding.h"
 #include "testbench/streaminggs/report/memory_interface.h"
@@ -73,6 +74,7 @@ struct ViewResult : ReferencePictures, JudgedFrame {
   double once_ratio() const {
     return static_cast<double>(run.memory.bytes) / static_cast<double>(once_bytes);
   }
+  std::vector<FixedRate> fixed_rates;  // those that are asked for
   double mean_power_w() const { return run.cycles > 0 ? energy_j.total.middle / run.time_s() : 0; }
 };
 

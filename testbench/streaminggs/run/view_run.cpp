@@ -60,6 +60,7 @@ void print_views(const std::vector<ViewResult>& views, const RunSetting& setting
   for (const ViewResult& view : views) {
     if (all || &view == &views.front()) fmt::print("\n");
     print_bottleneck(view);
+    print_fixed_rates(view);
     if (!all && views.size() > 1) continue;
     print_energy(view);
     if (all) print_losses(view);

@@ -249,7 +249,7 @@ TEST_CASE("dram controller: time, bandwidth and refreshes of idle time are accou
     for (const DramChannelStats& c : s.channels) CHECK(c.refreshes() == 9);
     CHECK(s.read_latency_cycles.mean() == 64);
     CHECK(s.energy.total_pj() > 0);
-    CHECK(s.energy_by_current_set_pj.size() == 2);
+    CHECK(s.energy.by_current_set_pj.size() == 2);
   });
 }
 

@@ -6,6 +6,7 @@
 
 #include "modules/dram/dram_energy.h"
 #include "modules/dram/queued_channel.h"
+#include "modules/dram/rest.h"
 
 namespace sgs {
 namespace {
@@ -100,6 +101,119 @@ TEST_CASE("energy: counts go to the regions that caused them, and all adds up") 
   CHECK(e.by_region_pj[5] == Approx(kWritePj + io));
   CHECK(regions_and_shared(e) == Approx(e.total_pj()));
   CHECK(e.vdd2.io_pj == Approx(3 * io));
+}
+
+// A rank that reads 100 bursts in 10,000 cycles of active standby.
+DramEnergyBand band_of(const Memspec& memspec, const DramConfig& config) {
+  RankActivity rank;
+  rank.reads = 100;
+  rank.active_cycles = 10000;
+  return dram_energy_band(memspec, config, {rank}, {});
+}
+
+TEST_CASE("energy: its band spans the published sets, and what is known of I/O") {
+  DramConfig config;
+  const Memspec m = load_memspec(config.memspec);
+  constexpr double kBits = 100 * 8 * 32;
+  const double micron = 100 * kReadPj + 10000 * kActivePj;
+  const double drampower =
+      100 * 4 * (2.25 * (5 - 2) + 1.5 * (260 - 45)) + 10000 * (2.25 * 2 + 1.5 * 45);
+  const DramEnergyBand band = band_of(m, config);
+  CHECK(band.total_pj() == Approx(micron + 3 * kBits));
+  CHECK(band.by_current_set_pj.at("drampower4") == Approx(drampower + 3 * kBits));
+  CHECK(band.least_pj == Approx(micron + 2 * kBits));
+  CHECK(band.most_pj == Approx(drampower + 4 * kBits));
+  config.current_set = "drampower4";
+  CHECK(band_of(m, config).total_pj() == Approx(drampower + 3 * kBits));
+  CHECK(band_of(m, config).least_pj == Approx(band.least_pj));
+  config.io_pj_per_bit = 5;
+  CHECK(band_of(m, config).least_pj == Approx(micron + 5 * kBits));
+  CHECK(band_of(m, config).most_pj == Approx(drampower + 5 * kBits));
+}
+
+TEST_CASE("energy: one set of currents has a spread, and I/O without a band LPDDR3's") {
+  Memspec m = load_memspec("lpddr4_3200_8gb");
+  REQUIRE(m.currents.size() == 1);
+  DramConfig config;
+  config.memspec = m.name;
+  const double io = 3 * 100 * 8 * 32;
+  const DramEnergyBand band = band_of(m, config);
+  const double by_currents = band.total_pj() - io;
+  CHECK(band.least_pj == Approx(by_currents / 1.4 + io * 2 / 3));
+  CHECK(band.most_pj == Approx(by_currents * 1.4 + io * 4 / 3));
+  m.current_spread = 1;
+  m.io_pj_per_bit_low = m.io_pj_per_bit_high = m.io_pj_per_bit;
+  CHECK(band_of(m, config).least_pj == Approx(band.total_pj()));
+  CHECK(band_of(m, config).most_pj == Approx(band.total_pj()));
+}
+
+Rest one_channel_rest(BetweenFrames state, std::uint64_t cycles) {
+  DramConfig config = one_channel();
+  config.between_frames = state;
+  return rest_of(config, load_memspec(config.memspec), cycles);
+}
+
+TEST_CASE("rest: self-refresh from tRPab on until it and a refresh just fit before the end") {
+  constexpr std::uint64_t kCycles = 1000000;
+  const Rest rest = one_channel_rest(BetweenFrames::kSelfRefresh, kCycles);
+  const RankActivity& a = rest.ranks.at(0);
+  CHECK(a.precharged_cycles == 17 + 112);
+  CHECK(a.active_cycles == 104);
+  CHECK(a.refreshes_all == 1);
+  CHECK(a.self_refresh_cycles == kCycles - 17 - 112 - 104);
+  CHECK(rest.self_refresh() == Approx((kCycles - 233.0) / kCycles));
+  const double by_hand =
+      (kCycles - 233) * kSelfRefreshPj + 129 * kPrechargedPj + 104 * kActivePj + kRefreshPj;
+  CHECK(rest.energy.total_pj() == Approx(by_hand));
+  CHECK(rest.energy.least_pj == Approx(by_hand));
+  CHECK(rest.energy.most_pj > by_hand);
+}
+
+TEST_CASE("rest: power-down is left for every refresh, and tXP before the end") {
+  constexpr std::uint64_t kCycles = 10 * 3120 + 1000;
+  const Rest rest = one_channel_rest(BetweenFrames::kPowerDown, kCycles);
+  const RankActivity& a = rest.ranks.at(0);
+  CHECK(a.refreshes_all == 10);
+  CHECK(a.precharged_cycles == 1 + 10 * 6 + 6);
+  CHECK(a.active_cycles == 10 * 104);
+  CHECK(a.precharged_power_down_cycles == kCycles - 67 - 1040);
+  CHECK(rest.power_down() == Approx((kCycles - 1107.0) / kCycles));
+  CHECK(rest.energy.total_pj() == Approx((kCycles - 1107) * kPrechargedDownPj + 67 * kPrechargedPj +
+                                         1040 * kActivePj + 10 * kRefreshPj));
+}
+
+TEST_CASE("rest: standby by the idle keys, or where there is no room for sleep") {
+  constexpr std::uint64_t kCycles = 10 * 3120 + 1000;
+  const RankActivity up = one_channel_rest(BetweenFrames::kByIdleCycles, kCycles).ranks.at(0);
+  CHECK(up.refreshes_all == 10);
+  CHECK(up.precharged_cycles == kCycles - 10 * 104);
+  for (const auto& [cycles, sleeps] : std::map<std::uint64_t, bool>{
+           {0, false}, {1, false}, {100, false}, {17 + 1 + 12 + 216, false}, {247, true}}) {
+    INFO(cycles);
+    const Rest rest = one_channel_rest(BetweenFrames::kSelfRefresh, cycles);
+    CHECK((rest.ranks.at(0).self_refresh_cycles > 0) == sleeps);
+    if (!sleeps) CHECK(rest.ranks.at(0).precharged_cycles == cycles);
+  }
+}
+
+TEST_CASE("rest: all ranks of all memories sleep, and are up at the end") {
+  for (const std::string& name : shipped_memspecs()) {
+    INFO(name);
+    DramConfig config;
+    config.memspec = name;
+    config.channels = 2;
+    config.ranks = 2;
+    const Memspec m = load_memspec(name);
+    constexpr std::uint64_t kCycles = 5000000;
+    const Rest rest = rest_of(config, m, kCycles);
+    REQUIRE(rest.ranks.size() == std::size_t{config.buses(m)} * 2);
+    const Memspec::Timing& t = m.timing_cycles;
+    for (const RankActivity& rank : rest.ranks) {
+      CHECK(rank.refreshes_bank >= 1);  // more fall due where tXSR is longer than tREFIpb
+      CHECK(rank.self_refresh_cycles <= kCycles - t.xsr - t.rfc_bank);
+      CHECK(rank.self_refresh_cycles + t.xsr + t.rfc_bank + t.rp_all + 8 > kCycles);
+    }
+  }
 }
 
 TEST_CASE("energy: the published events of the source agree") {

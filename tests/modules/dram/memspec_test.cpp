@@ -127,6 +127,12 @@ TEST_CASE("memspecs: the impossible is refused with the key's name") {
            {"timing_cycles.ras: got 10, expected at least rcd 15",
             [](M& m) { m.timing_cycles.ras = 10; }},
            {"io_pj_per_bit: got nothing", [](M& m) { m.io_pj_per_bit = M().io_pj_per_bit; }},
+           {"io_pj_per_bit_low: got 3.5, expected at most io_pj_per_bit 3",
+            [](M& m) { m.io_pj_per_bit_low = 3.5; }},
+           {"io_pj_per_bit_high: got 2.5, expected at least io_pj_per_bit 3",
+            [](M& m) { m.io_pj_per_bit_high = 2.5; }},
+           {"current_spread: got 0.5, expected at least 1, or 0",
+            [](M& m) { m.current_spread = 0.5; }},
            {"sources.fawn: unknown key", [](M& m) { m.sources["fawn"] = "x"; }},
            {"default_currents: got 'none'", [](M& m) { m.default_currents = "none"; }}}) {
     INFO(expected);
@@ -191,9 +197,9 @@ TEST_CASE("memspecs: the I/O energy is the device's unless the configuration has
   Memspec m = load_memspec("lpddr4_3200_8gb");
   m.io_pj_per_bit = 5;
   DramConfig config;
-  CHECK(config.io_pj_per_bit_of(m) == 5);
+  CHECK(config.io_pj_per_bit_of(m).middle == 5);
   config.io_pj_per_bit = 0;
-  CHECK(config.io_pj_per_bit_of(m) == 0);
+  CHECK(config.io_pj_per_bit_of(m).middle == 0);
   for (const std::string& name : shipped_memspecs()) {
     INFO(name);
     const Memspec shipped = load_memspec(name);

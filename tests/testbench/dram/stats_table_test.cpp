@@ -45,7 +45,7 @@ TEST_CASE("table of counts: energies are of both rails, each bus has its share o
   stats.channels[1].busy_cycles = 500;
   stats.energy.vdd1 = rail(1);
   stats.energy.vdd2 = rail(100);
-  stats.energy_by_current_set_pj["least"] = 7e6;
+  stats.energy.by_current_set_pj["least"] = 7e6;
   const std::string table = stats_table(stats);
   INFO(table);
   const std::vector<std::pair<const char*, const char*>> wanted = {

@@ -168,7 +168,10 @@ TEST_CASE("path summary: by table") {
                         {{10, 40, 5}, 25, 25, 100, 1, 1, 9.0 / 80, 0.5 * 25 / 80},
                         {hundred, 50, 100, 100, 7, 0, 3.0 / 20, 0.5 * 990 / 2000}}) {
     std::vector<PathFrame> frames;
-    for (const double ms : row.times_ms) frames.push_back({ms / 1e3, 3e-3, 0.5, ms > 10});
+    for (const double ms : row.times_ms) {
+      const double rest_j = 0.5 * std::max(0.0, 20 - ms) / 1e3;
+      frames.push_back({ms / 1e3, {2e-3, 3e-3, 5e-3}, {rest_j / 2, rest_j, 4 * rest_j}, ms > 10});
+    }
     const PathSummary s = summarise(frames, 50);
     CHECK(s.worst_fps == Approx(row.worst));
     CHECK(s.p99_fps == Approx(row.p99));
@@ -181,8 +184,12 @@ TEST_CASE("path summary: by table") {
                                                  [](double ms) { return ms > 10; })));
     CHECK(s.energy_j == Approx(3e-3 * static_cast<double>(s.frames)));
     CHECK(s.rate == 50);
-    CHECK(s.frames_w == Approx(row.frames_w));
-    CHECK(s.idle_w == Approx(row.idle_w));
+    CHECK(s.frames_w.middle == Approx(row.frames_w));
+    CHECK(s.frames_w.low == Approx(row.frames_w * 2 / 3));
+    CHECK(s.frames_w.high == Approx(row.frames_w * 5 / 3));
+    CHECK(s.idle_w.middle == Approx(row.idle_w));
+    CHECK(s.idle_w.low == Approx(row.idle_w / 2));
+    CHECK(s.idle_w.high == Approx(row.idle_w * 4));
   }
 }
 
