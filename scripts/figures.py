@@ -8,7 +8,7 @@ it.
   figures.py variants roofline    these two
 
 The paper's: characterisation, dram_by_stage, tuning_curve, variants, voxel_size, filter_units.
-Ours: headline; compare_memories; training_curve; exploration, fronts_of_orders, equal_area, group_size;
+Ours: headline; waterfall; compare_memories; training_curve; exploration, fronts_of_orders, equal_area, group_size;
 compare_machines_rates, _traffic and _ratios; error_image, error_tuning and error_renderers; and of the runs of `simulate` below the folder
 roofline, waits, traffic.
 

@@ -412,8 +412,48 @@ def headline(results: Results) -> Made:
     return figure, f"Bars: geometric means over trained scenes. From {data.made}"
 
 
+def waterfall(results: Results) -> Made:
+    """A panel for each machine: its components on top of each other from the left, the largest
+    first, with what the sources allow of each."""
+    columns = ("preset", "mJ of", "scene", "mJ", "least mJ", "most mJ")
+    data = results.table("frame_waterfall", "results.py power", columns)
+    machines = data.different("preset")
+    figure, all_axes = panels(len(machines), width=5.2, height=3.9)
+    for axes, machine in zip(all_axes, machines):
+        rows = [row for row in data.where(preset=machine) if number(row["mJ"])]
+        rows.sort(key=lambda row: (row["mJ of"] == "all", -number(row["mJ"])))
+        left = 0.0
+        for y, row in enumerate(rows):
+            mj, least, most = (number(row[column]) for column in columns[3:])
+            whole = row["mJ of"] == "all"
+            begin = 0.0 if whole else left
+            style = bar_style(0 if whole else 1)
+            axes.barh(y, mj, 0.66, left=begin, **style)
+            ends = [[mj - least], [most - mj]]
+            axes.errorbar(begin + mj, y, xerr=ends, color=INK, capsize=2.5, linewidth=1)
+            text = f"{mj:.2f} ({least:.2f} .. {most:.2f})"
+            axes.annotate(
+                text,
+                (begin + most, y),
+                xytext=(5, 0),
+                textcoords="offset points",
+                va="center",
+                fontsize=7.5,
+            )
+            left += mj
+        axes.set_yticks(range(len(rows)), [row["mJ of"].replace("_", " ") for row in rows])
+        axes.invert_yaxis()
+        axes.grid(axis="y", visible=False)
+        axes.set_title(f"{machine}: mJ of a frame of {rows[0]['scene']}")
+    most = max(number(row["most mJ"]) for row in data.rows)
+    for axes in all_axes:
+        axes.set_xlim(0, 1.42 * most)
+    return figure, f"Lines: what the sources allow. From {data.made}"
+
+
 FIGURES = {
     "headline": headline,
+    "waterfall": waterfall,
     "compare_memories": of_memories,
     "compare_machines_rates": rates,
     "compare_machines_traffic": traffic,

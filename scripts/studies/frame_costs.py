@@ -45,15 +45,9 @@ COMPONENT_COLUMNS = (
     PRESET,
     Column("mJ of", "component: units of logic, on-chip memory, clock, leakage, DRAM, all"),
     SCENE,
-    Column("mJ", "with the middle of each band of the technology", "mJ", ".3f"),
-    Column(
-        "least mJ",
-        "with the low ends; of the DRAM the lowest of the published sets of currents, of which "
-        "the total has none",
-        "mJ",
-        ".3f",
-    ),
-    Column("most mJ", "with the high ends, or the highest set of currents", "mJ", ".3f"),
+    Column("mJ", "with the middle of each band of the sources", "mJ", ".3f"),
+    Column("least mJ", "with the low ends", "mJ", ".3f"),
+    Column("most mJ", "with the high ends", "mJ", ".3f"),
 )
 GROUP_COLUMNS = (
     PRESET,
@@ -72,20 +66,16 @@ GROUP_COLUMNS = (
 )
 
 
-def joules_at_end(view: dict, keys: Iterable[str], end: str) -> float:
-    """With the technology's energies at an end of their bands: low or high."""
-    bands = view["energy"]["bands"]
+def joules_at_end(energy: dict, keys: Iterable[str], end: str) -> float:
+    """Of a section of energy, with the sources' values at an end of their bands: low or high."""
+    bands = energy["bands"]
     return sum(bands[key][end] for key in keys if key in bands)
 
 
 def with_band(view: dict, keys: Sequence[str]) -> tuple[float, float, float]:
     """mJ, least and most."""
-    middle = joules_of(view, keys)
-    if keys == OTHER["DRAM"]:
-        ends = [*view["energy"]["dram_by_current_set_j"].values(), middle]
-    else:
-        ends = [joules_at_end(view, keys, end) for end in ("low", "high")]
-    return middle / MJ, min(ends) / MJ, max(ends) / MJ
+    ends = (joules_at_end(view["energy"], keys, end) / MJ for end in ("low", "high"))
+    return (joules_of(view, keys) / MJ, *ends)
 
 
 def table_bytes(config: dict, shape: Sequence[str]) -> tuple[str, ...]:

@@ -13,7 +13,7 @@ from exploring.axes import Axis, Space, of_scene, parse_axes, parse_axis, read_p
 from runs import simulations
 from runs.scenes import REPOSITORY, find_scene, find_scenes
 from runs.simulations import pareto_front
-from studies import cases, datapath, frame_costs, gates, variants
+from studies import cases, datapath, frame_costs, gates, power, variants
 
 
 class Pareto(unittest.TestCase):
@@ -462,6 +462,54 @@ class Synthesis(unittest.TestCase):
             self.assertEqual(small.register_bits, 0)
             self.assertGreater(small.nand2, 32 * 4)
             self.assertLess(fast.fo4, small.fo4)
+
+
+class Power(unittest.TestCase):
+    @staticmethod
+    def energy(**joules: float) -> dict:
+        """With each component from half to three times its middle; the clock without a band."""
+        bands = {
+            f"{name}_j": {"low": j, "middle": j, "high": j}
+            if name == "clock"
+            else {"low": j / 2, "middle": j, "high": 3 * j}
+            for name, j in joules.items()
+        }
+        ends = {end: sum(band[end] for band in bands.values()) for end in ("low", "middle", "high")}
+        middle = {key: band["middle"] for key, band in bands.items()}
+        return {**middle, "total_j": ends["middle"], "bands": {**bands, "total_j": ends}}
+
+    def view(self, **joules: float) -> dict:
+        rest = self.energy(dram=1.0)
+        rates = [{"per_s": 60.0, "held": True, "rest": rest}, {"per_s": 90.0, "held": False}]
+        area = {"fine": 1.0, "sram": 1.0, "total": 2.0}
+        energy = self.energy(**joules)
+        return {
+            "frame": {"fps": 70.0},
+            "area_mm2": area,
+            "energy": energy,
+            "fixed_rates": rates,
+        }
+
+    def test_a_rate_that_is_not_held_has_no_power(self):
+        alone, at_60, at_90 = power.spent_by_rate(self.view(fine=2.0, dram=4.0))
+        self.assertEqual((alone.rate, alone.joules, alone.rest), (70, 6, 0))
+        self.assertEqual((at_60.joules, at_60.rest, at_60.low, at_60.high), (7, 1, 3.5, 21))
+        self.assertEqual(at_60.cells(), (7 / simulations.MJ, 1 / 7, 420, 210, 1260))
+        self.assertIsNone(at_90)
+        row = power.power_row("x", 90, at_90, at_60)
+        self.assertEqual(row[2:7], (None,) * 5)
+        self.assertEqual(row[-3:], (None,) * 3)
+
+    def test_a_source_of_error_stands_at_one_end_in_both_machines(self):
+        ours, others = (
+            power.spent_by_rate(self.view(fine=fine, dram=dram, clock=1.0))[0]
+            for fine, dram in ((2.0, 4.0), (4.0, 2.0))
+        )
+        self.assertEqual(power.gain_band(ours, ours), (1, 1, 1))
+        # Least with logic at its low end and DRAM at its high one, most the other way round.
+        self.assertEqual(
+            power.gain_band(ours, others), (1, (2 + 6 + 1) / (1 + 12 + 1), (12 + 1 + 1) / 9)
+        )
 
 
 class Reports(unittest.TestCase):

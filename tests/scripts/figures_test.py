@@ -180,6 +180,12 @@ TABLES["headline"] = (
     [{"machine / baseline": "exact / gscore", "scene": scene} for scene in ("truck", "yard")],
     ("exact over gscore", "single scenes", "speed-up", "times the baseline"),
 )
+TABLES["waterfall"] = (
+    "frame_waterfall",
+    names(frame_costs.COMPONENT_COLUMNS),
+    grid("preset", ("exact", "gscore"), "mJ of", ("fine", "pixel_state", "all")),
+    ("exact: mJ of a frame", "pixel state", "all", "5.00 (6.00 .. 7.00)"),
+)
 MACHINES = ("gscore", "exact", "GPU, modelled")
 TABLES |= {
     "compare_machines_rates": (

@@ -1,0 +1,175 @@
+"""Study of power at fixed frame rates: a frame, the rest until the next one, and what is known of both."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import itertools
+from collections.abc import Iterable
+
+import tables
+from runs import run_arguments
+from runs.scenes import find_scenes
+from runs.simulations import MJ, Run, simulate_all
+from studies.cases import MEMORIES, OTHER, components
+from studies.frame_costs import COMPONENT_COLUMNS, joules_at_end, with_band
+from tables import SCENE, Column, Study
+
+OURS, OTHERS = "exact", "gscore_lossless"
+RATED_SCENES = ("truck", "playbot", "yard", "park", "platform", "garden")
+ALONE = "alone"
+GAIN = f"{OTHERS} over {OURS}"
+
+
+def power_columns(machine: str) -> tuple[Column, ...]:
+    return (
+        Column(f"{machine} mJ", "of a frame and the rest until the next one", "mJ", ".3f"),
+        Column(f"of it rest, {machine}", "share of the rest", "", ".1%"),
+        Column(f"{machine} W", "empty: it does not hold this rate", "W", ".3f"),
+        Column(f"{machine} W, least", "with the low ends of all sources", "W", ".3f"),
+        Column(f"{machine} W, most", "with the high ends", "W", ".3f"),
+    )
+
+
+POWER_COLUMNS = (
+    SCENE,
+    Column("frames/s", "fixed rate; alone: a frame begins when the one before it is done"),
+    *(power_columns(OURS) + power_columns(OTHERS)),
+    Column(GAIN, "energy of a frame and its rest", "", ".2f"),
+    Column(f"{GAIN}, least", "each source of error at one end in both machines", "", ".2f"),
+    Column(f"{GAIN}, most", "likewise", "", ".2f"),
+)
+
+
+@dataclasses.dataclass(frozen=True)
+class AtRates(Run):
+    """With power at fixed rates of frames."""
+
+    rates: tuple[int, ...] = ()
+
+    def arguments(self) -> list[str]:
+        return [*super().arguments(), "--frame-rate", ",".join(map(str, self.rates))]
+
+
+def sources_of_error(view: dict) -> list[tuple[str, ...]]:
+    """Keys of energy whose constants are the same in every machine: of lanes and other parts, of
+    on-chip memory, of the clock, of leakage, of the DRAM."""
+    parts = components(view)
+    logic = tuple(k for name, of in parts.items() if name not in (*MEMORIES, *OTHER) for k in of)
+    memory = tuple(key for name in MEMORIES for key in parts[name])
+    return [logic, memory, *(OTHER[name] for name in ("clock", "leakage", "DRAM"))]
+
+
+@dataclasses.dataclass(frozen=True)
+class Spent:
+    """Joules of a frame and its rest at a rate. sources: at the low and the high end of each."""
+
+    rate: float
+    joules: float
+    rest: float
+    low: float
+    high: float
+    sources: tuple[tuple[float, float], ...]
+
+    def cells(self) -> tuple:
+        watts = (self.rate * joules for joules in (self.joules, self.low, self.high))
+        return (self.joules / MJ, self.rest / self.joules, *watts)
+
+
+def spent(view: dict, rest: dict | None, rate: float) -> Spent:
+    """rest: its energy; None where the next frame begins at once."""
+    sections = [view["energy"], *([rest] if rest else [])]
+
+    def at(keys: Iterable[str], end: str) -> float:
+        return sum(joules_at_end(section, keys, end) for section in sections)
+
+    sources = tuple((at(keys, "low"), at(keys, "high")) for keys in sources_of_error(view))
+    middle, low, high = (at(OTHER["all"], end) for end in ("middle", "low", "high"))
+    return Spent(rate, middle, rest["total_j"] if rest else 0.0, low, high, sources)
+
+
+def spent_by_rate(view: dict) -> list[Spent | None]:
+    """Alone, and at each rate; None where it is not held."""
+    held = (
+        spent(view, of["rest"], of["per_s"]) if of["held"] else None for of in view["fixed_rates"]
+    )
+    return [spent(view, None, view["frame"]["fps"]), *held]
+
+
+def gain_band(ours: Spent, others: Spent) -> tuple[float, float, float]:
+    """The ratio, and its ends with each source at one end in both machines."""
+    ratios = [
+        sum(of[end] for of, end in zip(others.sources, ends))
+        / sum(of[end] for of, end in zip(ours.sources, ends))
+        for ends in itertools.product((0, 1), repeat=len(ours.sources))
+    ]
+    return others.joules / ours.joules, min(ratios), max(ratios)
+
+
+def power_row(scene: str, rate: object, ours: Spent | None, others: Spent | None) -> tuple:
+    empty = (None,) * len(power_columns(""))
+    cells = [of.cells() if of else empty for of in (ours, others)]
+    gain = gain_band(ours, others) if ours and others else (None, None, None)
+    return (scene, rate, *cells[0], *cells[1], *gain)
+
+
+def add_power_arguments(to: run_arguments.Parser) -> None:
+    run_arguments.add_scenes(to, " ".join(RATED_SCENES))
+    run_arguments.add_side_by_side(to)
+    to.add_argument("--view", default="0", help="number of a camera")
+    run_arguments.add_size(to, "640x360")
+    to.add_argument(
+        "--rates", nargs="+", type=int, default=[60, 72, 90, 120], metavar="N", help="frames/s"
+    )
+
+
+def make_power(arguments: argparse.Namespace) -> None:
+    run_arguments.check_once("--rates", arguments.rates)
+    scenes = find_scenes(arguments.scenes or list(RATED_SCENES), arguments.cameras)
+    rates = tuple(arguments.rates)
+    runs = [
+        AtRates(scene, arguments.view, arguments.size, machine, rates=rates)
+        for scene in scenes
+        for machine in (OURS, OTHERS)
+    ]
+    outcomes = simulate_all(arguments.streaminggs, runs, arguments.side_by_side)
+    views = [outcome.accepted()[0] for outcome in outcomes]
+    by = tables.made_of(arguments.streaminggs, views, scenes)
+    about = f"View {arguments.view} at {arguments.size} px."
+    first = zip((OURS, OTHERS), views)
+    rows = [
+        (machine, name, scenes[0].name, *with_band(view, keys))
+        for machine, view in first
+        for name, keys in components(view).items()
+    ]
+    tables.write(arguments.out, "frame_waterfall", by, COMPONENT_COLUMNS, rows, about)
+    rows, sides, apart = [], 0, 0
+    for scene, ours, others in zip(scenes, views[::2], views[1::2]):
+        for rate, *both in zip((ALONE, *rates), spent_by_rate(ours), spent_by_rate(others)):
+            rows.append(power_row(scene.name, rate, *both))
+            if all(both):
+                _, least, most = gain_band(*both)
+                sides += least < 1 < most
+                apart += both[1].low < both[0].high
+    about += (
+        f" Within the band {sides} of {len(rows)} rows change sides; were the sources' errors each "
+        f"machine's own, {apart} would. PHY and controller of the memory are in no column."
+    )
+    tables.write(arguments.out, "power_at_rate", by, POWER_COLUMNS, rows, about)
+
+
+POWER = Study(
+    "power",
+    f"""Power of {OURS} and {OTHERS} at fixed frame rates, the memory in self-refresh between frames, with
+the bands of all sources. Makes
+
+  frame_waterfall  energy of a frame of the first scene by component
+  power_at_rate    watts at each rate, and the gain, by scene
+
+In the band of the gain a source of error moves both machines: constants of logic, of on-chip memory,
+of the clock, of leakage and of the DRAM each stand at one end.
+""",
+    ("results.py power",),
+    add_power_arguments,
+    make_power,
+)
