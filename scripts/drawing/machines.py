@@ -412,20 +412,31 @@ def headline(results: Results) -> Made:
     return figure, f"Bars: geometric means over trained scenes. From {data.made}"
 
 
+def steps_of_waterfall(data: Data, machine: str) -> dict[str, list[float]]:
+    """Middle, least and most mJ by component: the largest first, those that hardly show as one
+    line, last all."""
+    columns = ("mJ", "least mJ", "most mJ")
+    rows = data.where(preset=machine)
+    steps = {row["mJ of"].replace("_", " "): [number(row[c]) for c in columns] for row in rows}
+    whole = steps.pop("all")
+    small = [steps.pop(name) for name, (mj, *_) in list(steps.items()) if mj < 0.01 * whole[0]]
+    order = sorted(steps, key=lambda name: -steps[name][0])
+    smaller = {f"{len(small)} smaller": [sum(of) for of in zip(*small)]} if small else {}
+    return {name: steps[name] for name in order} | smaller | {"all": whole}
+
+
 def waterfall(results: Results) -> Made:
-    """A panel for each machine: its components on top of each other from the left, the largest
-    first, with what the sources allow of each."""
+    """A panel for each machine: its components on top of each other from the left, with what the
+    sources allow of each."""
     columns = ("preset", "mJ of", "scene", "mJ", "least mJ", "most mJ")
     data = results.table("frame_waterfall", "results.py power", columns)
     machines = data.different("preset")
-    figure, all_axes = panels(len(machines), width=5.2, height=3.9)
+    figure, all_axes = panels(len(machines), width=5.2, height=3.4)
     for axes, machine in zip(all_axes, machines):
-        rows = [row for row in data.where(preset=machine) if number(row["mJ"])]
-        rows.sort(key=lambda row: (row["mJ of"] == "all", -number(row["mJ"])))
+        steps = steps_of_waterfall(data, machine)
         left = 0.0
-        for y, row in enumerate(rows):
-            mj, least, most = (number(row[column]) for column in columns[3:])
-            whole = row["mJ of"] == "all"
+        for y, (name, (mj, least, most)) in enumerate(steps.items()):
+            whole = name == "all"
             begin = 0.0 if whole else left
             style = bar_style(0 if whole else 1)
             axes.barh(y, mj, 0.66, left=begin, **style)
@@ -441,10 +452,10 @@ def waterfall(results: Results) -> Made:
                 fontsize=7.5,
             )
             left += mj
-        axes.set_yticks(range(len(rows)), [row["mJ of"].replace("_", " ") for row in rows])
+        axes.set_yticks(range(len(steps)), steps)
         axes.invert_yaxis()
         axes.grid(axis="y", visible=False)
-        axes.set_title(f"{machine}: mJ of a frame of {rows[0]['scene']}")
+        axes.set_title(f"{machine}: mJ of a frame of {data.rows[0]['scene']}")
     most = max(number(row["most mJ"]) for row in data.rows)
     for axes in all_axes:
         axes.set_xlim(0, 1.42 * most)

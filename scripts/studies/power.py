@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import itertools
-from collections.abc import Iterable
+import statistics
+from collections.abc import Iterable, Mapping, Sequence
 
 import tables
 from runs import run_arguments
@@ -19,6 +20,19 @@ OURS, OTHERS = "exact", "gscore_lossless"
 RATED_SCENES = ("truck", "playbot", "yard", "park", "platform", "garden")
 ALONE = "alone"
 GAIN = f"{OTHERS} over {OURS}"
+# Whose energy the first screen compares, but for what codebooks or searches made.
+PAIRS = (
+    ("exact_fast", "gscore_lossless"),
+    ("exact", "gscore_lossless"),
+    ("exact_fp16", "gscore_fp32_keys"),
+)
+GAIN_COLUMNS = (
+    Column("machine / baseline", "presets"),
+    Column("energy, baseline over machine", "geometric mean over the scenes", "", ".2f"),
+    Column("energy ratio, least", "each source of error at one end everywhere", "", ".2f"),
+    Column("energy ratio, most", "likewise", "", ".2f"),
+    Column("least of a scene", "the same of the scene that gains least", "", ".2f"),
+)
 
 
 def power_columns(machine: str) -> tuple[Column, ...]:
@@ -96,14 +110,31 @@ def spent_by_rate(view: dict) -> list[Spent | None]:
     return [spent(view, None, view["frame"]["fps"]), *held]
 
 
-def gain_band(ours: Spent, others: Spent) -> tuple[float, float, float]:
-    """The ratio, and its ends with each source at one end in both machines."""
-    ratios = [
+def gains_by_ends(ours: Spent, others: Spent) -> list[float]:
+    """The ratio for each choice of an end for each source, in both machines."""
+    return [
         sum(of[end] for of, end in zip(others.sources, ends))
         / sum(of[end] for of, end in zip(ours.sources, ends))
         for ends in itertools.product((0, 1), repeat=len(ours.sources))
     ]
-    return others.joules / ours.joules, min(ratios), max(ratios)
+
+
+def gain_band(ours: Spent, others: Spent) -> tuple[float, float, float]:
+    """The ratio, and its ends with each source at one end in both machines."""
+    gains = gains_by_ends(ours, others)
+    return others.joules / ours.joules, min(gains), max(gains)
+
+
+def gain_row(pair: tuple[str, str], views: Mapping[str, Sequence[dict]]) -> tuple:
+    """views: of each machine, a scene each."""
+    alone = [
+        [spent(view, None, view["frame"]["fps"]) for view in of_scene]
+        for of_scene in zip(*(views[machine] for machine in pair))
+    ]
+    means = list(map(statistics.geometric_mean, zip(*(gains_by_ends(*of) for of in alone))))
+    middle, least, _ = zip(*(gain_band(*of) for of in alone))
+    mean = statistics.geometric_mean(middle)
+    return (" / ".join(pair), mean, min(means), max(means), min(least))
 
 
 def power_row(scene: str, rate: object, ours: Spent | None, others: Spent | None) -> tuple:
@@ -127,24 +158,28 @@ def make_power(arguments: argparse.Namespace) -> None:
     run_arguments.check_once("--rates", arguments.rates)
     scenes = find_scenes(arguments.scenes or list(RATED_SCENES), arguments.cameras)
     rates = tuple(arguments.rates)
+    machines = list(dict.fromkeys(machine for pair in PAIRS for machine in pair))
     runs = [
         AtRates(scene, arguments.view, arguments.size, machine, rates=rates)
+        for machine in machines
         for scene in scenes
-        for machine in (OURS, OTHERS)
     ]
     outcomes = simulate_all(arguments.streaminggs, runs, arguments.side_by_side)
-    views = [outcome.accepted()[0] for outcome in outcomes]
-    by = tables.made_of(arguments.streaminggs, views, scenes)
+    views = {machine: [next(outcomes).accepted()[0] for _ in scenes] for machine in machines}
+    by = tables.made_of(arguments.streaminggs, itertools.chain(*views.values()), scenes)
     about = f"View {arguments.view} at {arguments.size} px."
-    first = zip((OURS, OTHERS), views)
     rows = [
-        (machine, name, scenes[0].name, *with_band(view, keys))
-        for machine, view in first
-        for name, keys in components(view).items()
+        (machine, name, scenes[0].name, *with_band(views[machine][0], keys))
+        for machine in (OURS, OTHERS)
+        for name, keys in components(views[machine][0]).items()
     ]
     tables.write(arguments.out, "frame_waterfall", by, COMPONENT_COLUMNS, rows, about)
+    rows = [gain_row(pair, views) for pair in PAIRS]
+    tables.write(
+        arguments.out, "energy_gain_band", by, GAIN_COLUMNS, rows, f"{about} Frames alone."
+    )
     rows, sides, apart = [], 0, 0
-    for scene, ours, others in zip(scenes, views[::2], views[1::2]):
+    for scene, ours, others in zip(scenes, views[OURS], views[OTHERS]):
         for rate, *both in zip((ALONE, *rates), spent_by_rate(ours), spent_by_rate(others)):
             rows.append(power_row(scene.name, rate, *both))
             if all(both):
@@ -163,8 +198,9 @@ POWER = Study(
     f"""Power of {OURS} and {OTHERS} at fixed frame rates, the memory in self-refresh between frames, with
 the bands of all sources. Makes
 
-  frame_waterfall  energy of a frame of the first scene by component
-  power_at_rate    watts at each rate, and the gain, by scene
+  frame_waterfall   energy of a frame of the first scene by component
+  power_at_rate     watts at each rate, and the gain, by scene
+  energy_gain_band  the gain of these and other pairs, frames alone, over the scenes
 
 In the band of the gain a source of error moves both machines: constants of logic, of on-chip memory,
 of the clock, of leakage and of the DRAM each stand at one end.

@@ -511,6 +511,15 @@ class Power(unittest.TestCase):
             power.gain_band(ours, others), (1, (2 + 6 + 1) / (1 + 12 + 1), (12 + 1 + 1) / 9)
         )
 
+    def test_over_scenes_a_source_stands_at_one_end_as_well(self):
+        """Two scenes whose logic and DRAM change places: what one loses the other one gains."""
+        views = [self.view(fine=2.0, dram=4.0), self.view(fine=4.0, dram=2.0)]
+        row = power.gain_row(("a", "b"), {"a": views, "b": views[::-1]})
+        self.assertEqual(row[0], "a / b")
+        for cell in row[1:4]:
+            self.assertAlmostEqual(cell, 1)
+        self.assertAlmostEqual(row[4], (2 + 6) / (1 + 12))
+
 
 class Reports(unittest.TestCase):
     VIEW = {
