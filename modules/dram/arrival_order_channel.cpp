@@ -18,7 +18,8 @@ ArrivalOrderChannel::ArrivalOrderChannel(const DramConfig& config, const Memspec
       device_(memspec, DerivedTiming(memspec, config.write_latency_set, config.read_strobe),
               config.ranks),
       outcome_(std::size_t{config.ranks} * memspec.organisation.banks, RowOutcome::kMiss),
-      command_bus_(kCommandBusSlots, kNever) {
+      shapes_(command_shapes(memspec.command_bus)),
+      taken_(memspec.command_bus.buses, std::vector<std::uint64_t>(kCommandBusSlots, kNever)) {
   for (std::uint32_t rank = 0; rank < config.ranks; ++rank)
     maintenance_.emplace_back(config, memspec, rank);
 }
@@ -30,12 +31,12 @@ std::uint64_t ArrivalOrderChannel::serve(const ChannelRequest& request, std::uin
   open(request, cycle);
   RowOutcome& outcome = outcome_[request.rank * device_.banks() + request.bank];
   const bool reads = request.direction == Direction::kRead;
+  const Command command = reads ? Command::kRead : Command::kWrite;
   std::uint64_t at = cycle;
   for (std::uint32_t i = 0; i < request.bursts; ++i) {
     const std::uint64_t earliest = device_.earliest(
         reads ? RequestCommand::kRead : RequestCommand::kWrite, request.rank, request.bank);
-    at = issue(reads ? Command::kRead : Command::kWrite, request, request.burst + i,
-               std::max(cycle, earliest));
+    at = issue(command, request, request.burst + i, std::max(cycle + lead_of(command), earliest));
     rows_.count(outcome);
     outcome = RowOutcome::kHit;
   }
@@ -87,15 +88,18 @@ void ArrivalOrderChannel::open(const ChannelRequest& r, std::uint64_t cycle) {
   if (open_row != kNoRow) {
     outcome = RowOutcome::kConflict;
     issue(Command::kPrecharge, r, 0,
-          std::max(cycle, device_.earliest(RequestCommand::kPrecharge, r.rank, r.bank)));
+          std::max(cycle + lead_of(Command::kPrecharge),
+                   device_.earliest(RequestCommand::kPrecharge, r.rank, r.bank)));
   }
   issue(Command::kActivate, r, 0,
-        std::max(cycle, device_.earliest(RequestCommand::kActivate, r.rank, r.bank)));
+        std::max(cycle + lead_of(Command::kActivate),
+                 device_.earliest(RequestCommand::kActivate, r.rank, r.bank)));
 }
 
 std::uint64_t ArrivalOrderChannel::issue(Command command, const ChannelRequest& request,
                                          std::uint32_t burst, std::uint64_t earliest) {
-  CommandRecord record{take_command_slot(earliest),
+  const CommandShape& shape = shapes_[static_cast<std::size_t>(command)];
+  CommandRecord record{take_command_bus(shape, earliest),
                        command,
                        channel_,
                        static_cast<std::uint8_t>(request.rank),
@@ -109,10 +113,22 @@ std::uint64_t ArrivalOrderChannel::issue(Command command, const ChannelRequest& 
   return record.cycle;
 }
 
-std::uint64_t ArrivalOrderChannel::take_command_slot(std::uint64_t cycle) {
-  while (command_bus_[cycle % kCommandBusSlots] == cycle) ++cycle;
-  command_bus_[cycle % kCommandBusSlots] = cycle;
-  return cycle;
+std::uint64_t ArrivalOrderChannel::take_command_bus(const CommandShape& shape, std::uint64_t last) {
+  std::vector<std::uint64_t>& taken = taken_[shape.bus];
+  const auto any_taken = [&](std::uint64_t first) {
+    for (std::uint64_t left = shape.cycles; left != 0; left &= left - 1) {
+      const std::uint64_t cycle = first + static_cast<std::uint64_t>(__builtin_ctzll(left));
+      if (taken[cycle % kCommandBusSlots] == cycle) return true;
+    }
+    return false;
+  };
+  std::uint64_t first = std::max<std::uint64_t>(last, shape.lead) - shape.lead;
+  while (any_taken(first)) ++first;
+  for (std::uint64_t left = shape.cycles; left != 0; left &= left - 1) {
+    const std::uint64_t cycle = first + static_cast<std::uint64_t>(__builtin_ctzll(left));
+    taken[cycle % kCommandBusSlots] = cycle;
+  }
+  return first + shape.lead;
 }
 
 void ArrivalOrderChannel::hand_out_before(std::uint64_t cycle) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "modules/dram/channel_request.h"
+#include "modules/dram/command_bus.h"
 #include "modules/dram/device_timing.h"
 #include "modules/dram/dram_config.h"
 #include "modules/dram/path_latency.h"
@@ -41,7 +42,11 @@ class ArrivalOrderChannel {
   void open(const ChannelRequest& request, std::uint64_t cycle);
   std::uint64_t issue(Command command, const ChannelRequest& request, std::uint32_t burst,
                       std::uint64_t earliest);
-  std::uint64_t take_command_slot(std::uint64_t earliest);
+  std::uint32_t lead_of(Command command) const {
+    return shapes_[static_cast<std::size_t>(command)].lead;
+  }
+  // Returns the command's last cycle, from `last` on.
+  std::uint64_t take_command_bus(const CommandShape& shape, std::uint64_t last);
   void hand_out_before(std::uint64_t cycle);
 
   struct Later {
@@ -55,8 +60,10 @@ class ArrivalOrderChannel {
   CommandSink& sink_;
   DeviceTiming device_;
   std::vector<RankMaintenance> maintenance_;
-  std::vector<RowOutcome> outcome_;         // by rank and bank: of the next column
-  std::vector<std::uint64_t> command_bus_;  // ring: which cycle a slot was last taken for
+  std::vector<RowOutcome> outcome_;  // by rank and bank: of the next column
+  const CommandShapes shapes_;
+  // Of each command bus a ring: which cycle a slot was last taken for.
+  std::vector<std::vector<std::uint64_t>> taken_;
   // Commands of one request lie between those of earlier ones; the sink wants them in order.
   std::priority_queue<CommandRecord, std::vector<CommandRecord>, Later> pending_;
   std::uint64_t last_column_ = 0;

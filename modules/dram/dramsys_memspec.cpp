@@ -169,6 +169,20 @@ class Conversion {
                              {"rows", count("nbrOfRows")},
                              {"columns", count("nbrOfColumns") * (hbm ? count("burstLength") : 1)}};
     refreshes_alone_ = together < banks_;
+    command_bus(type);
+  }
+
+  // What their checkers of the type have.
+  void command_bus(const std::string& type) {
+    Json& bus = ours_["command_bus"];
+    if (type == "LPDDR4") bus = {{"activate", 4}, {"column", 4}, {"row", 2}};
+    if (type == "LPDDR5") bus = {{"activate", 2}, {"activate_gap", 1}};
+    if (type == "DDR5") {
+      const std::int64_t cycles = std::max<std::int64_t>(1, of("memtimingspec", "cmdMode"));
+      bus = {{"activate", 2 * cycles}, {"column", 2 * cycles}, {"row", cycles}};
+    }
+    if (type == "HBM2" || type == "HBM3") bus = {{"activate", 2}, {"buses", 2}};
+    if (bus.is_null()) ours_.erase("command_bus");
   }
 
   void timing(const std::string& type) {

@@ -12,6 +12,7 @@
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_json.h"
 #include "modules/config/strict_json.h"
+#include "modules/dram/command_bus.h"
 #include "modules/dram/dramsys_memspec.h"
 
 namespace sgs {
@@ -38,6 +39,16 @@ static void visit(ConfigVisitor& v, Memspec::Organisation& o) {
   v("rows", o.rows, in_range(1, 1 << 20), "rows a bank, a power of two");
   v("columns", o.columns, in_range(1, 1 << 16),
     "columns a row, each width_bits wide; a power of two and a multiple of burst_length");
+}
+
+static void visit(ConfigVisitor& v, Memspec::CommandBus& b) {
+  const ConfigRange cycles = in_range(1, 8);
+  v("activate", b.activate, cycles, "cycles that an activate takes");
+  v("activate_gap", b.activate_gap, in_range(0, 8),
+    "cycles between the two commands of an activate, in which others may come; 0: none");
+  v("column", b.column, cycles, "cycles that a read or write takes, at most ccd");
+  v("row", b.row, cycles, "cycles that a precharge, refresh or self-refresh command takes");
+  v("buses", b.buses, in_range(1, 2), "2: reads and writes have a command bus of their own");
 }
 
 static void visit(ConfigVisitor& v, Memspec::Timing& t) {
@@ -116,6 +127,8 @@ void visit(ConfigVisitor& v, Memspec& m) {
   v("name", m.name, "what it is called");
   v("description", m.description, "what device it is");
   v.section("organisation", m.organisation, "sizes");
+  v.section("command_bus", m.command_bus,
+            "cycles of the command bus that a command takes; timings count from the last");
   v("clock_period_ns", m.clock_period_ns, in_range(0.1, 100.0), "tCK");
   v.section("timing_cycles", m.timing_cycles, "constraints in clock cycles, named as by JESD209-3");
   v("refresh_order", m.refresh_order,
@@ -137,8 +150,8 @@ void visit(ConfigVisitor& v, Memspec& m) {
   v("default_currents", m.default_currents, "the set that is used where none is asked for");
   v.sections("currents", m.currents, "published sets of currents, each under a name");
   v.strings("sources", m.sources,
-            "where each number comes from, by its key without timing_cycles; organisation and "
-            "currents.NAME as a whole; default: of all others");
+            "where each number comes from, by its key without timing_cycles; organisation, "
+            "command_bus and currents.NAME as a whole; default: of all others");
 }
 
 std::vector<std::string> shipped_memspecs() {
@@ -286,6 +299,11 @@ class MemspecCheck {
     const Memspec::Timing& t = m_.timing_cycles;
     require(t.ccd >= m_.burst_cycles(), "timing_cycles.ccd", t.ccd,
             fmt::format("at least burst_length / beats_per_clock = {}", m_.burst_cycles()));
+    const Memspec::CommandBus& bus = m_.command_bus;
+    require(bus.column <= t.ccd, "command_bus.column", bus.column,
+            fmt::format("at most ccd {}", t.ccd));
+    require(bus.activate_gap == 0 || bus.activate == 2, "command_bus.activate", bus.activate,
+            "2: activate_gap parts two commands");
     require(t.ras >= t.rcd, "timing_cycles.ras", t.ras, fmt::format("at least rcd {}", t.rcd));
     require(t.rc >= t.ras, "timing_cycles.rc", t.rc, fmt::format("at least ras {}", t.ras));
     require(t.rp_all >= t.rp_bank, "timing_cycles.rp_all", t.rp_all,
@@ -323,38 +341,45 @@ class MemspecCheck {
   // a simulation would never end.
   void refresh() const {
     const Memspec::Timing& t = m_.timing_cycles;
-    require(t.refi > t.rfc_all + t.rcd, "timing_cycles.refi", t.refi,
-            fmt::format("more than rfc_all {} + rcd {}: room for an activate between refreshes",
-                        t.rfc_all, t.rcd));
+    // What a refresh and an activate take of the command bus beyond a cycle each.
+    const CommandShapes shapes = command_shapes(m_.command_bus);
+    const std::uint32_t bus = shapes[static_cast<std::size_t>(Command::kRefreshBank)].lead +
+                              shapes[static_cast<std::size_t>(Command::kActivate)].lead;
+    const std::string with = bus == 0 ? "" : fmt::format(" + {} of the command bus", bus);
+    const std::string without = bus == 0 ? "" : fmt::format(" - {} of the command bus", bus);
+    require(t.refi > t.rfc_all + t.rcd + bus, "timing_cycles.refi", t.refi,
+            fmt::format("more than rfc_all {} + rcd {}{}: room for an activate between refreshes",
+                        t.rfc_all, t.rcd, with));
     if (t.pbr2pbr == 0)
-      require(t.refi_bank > t.rfc_bank, "timing_cycles.refi_bank", t.refi_bank,
-              fmt::format("more than rfc_bank {}", t.rfc_bank));
+      require(t.refi_bank > t.rfc_bank + bus, "timing_cycles.refi_bank", t.refi_bank,
+              fmt::format("more than rfc_bank {}{}", t.rfc_bank, with));
     else
-      require(t.refi_bank > t.pbr2pbr, "timing_cycles.refi_bank", t.refi_bank,
-              fmt::format("more than pbr2pbr {}", t.pbr2pbr));
+      require(t.refi_bank > t.pbr2pbr + bus, "timing_cycles.refi_bank", t.refi_bank,
+              fmt::format("more than pbr2pbr {}{}", t.pbr2pbr, with));
     if (t.pbr2act > 0)
-      require(t.pbr2act >= t.rrd && t.pbr2act < t.refi_bank, "timing_cycles.pbr2act", t.pbr2act,
-              fmt::format("at least rrd {}, less than refi_bank {}", t.rrd, t.refi_bank));
+      require(
+          t.pbr2act >= t.rrd && t.pbr2act + bus < t.refi_bank, "timing_cycles.pbr2act", t.pbr2act,
+          fmt::format("at least rrd {}, less than refi_bank {}{}", t.rrd, t.refi_bank, without));
     // A per-bank refresh counts as an activate.
-    require(
-        t.rrd < t.refi_bank, "timing_cycles.rrd", t.rrd,
-        fmt::format("less than refi_bank {}: room for an activate between refreshes", t.refi_bank));
-    require(t.faw < 4 * t.refi_bank, "timing_cycles.faw", t.faw,
-            fmt::format("less than 4 x refi_bank {}: room for an activate among four refreshes",
-                        t.refi_bank));
+    require(t.rrd + bus < t.refi_bank, "timing_cycles.rrd", t.rrd,
+            fmt::format("less than refi_bank {}{}: room for an activate between refreshes",
+                        t.refi_bank, without));
+    require(t.faw < 4 * (t.refi_bank - bus), "timing_cycles.faw", t.faw,
+            fmt::format("less than 4 x refi_bank {}{}: room for an activate among four refreshes",
+                        t.refi_bank, without));
     const std::uint32_t banks = m_.refresh_sets();
-    const std::uint32_t row_cycle = t.rfc_bank + t.rrd + t.ras + t.rp_bank;
+    const std::uint32_t row_cycle = t.rfc_bank + t.rrd + t.ras + t.rp_bank + bus;
     require(banks * t.refi_bank > row_cycle, "timing_cycles.refi_bank", t.refi_bank,
             fmt::format("{} banks x refi_bank above {}, which is rfc_bank {} + rrd {} + ras {} + "
-                        "rp_bank {}: room for a row between a bank's refreshes",
-                        banks, row_cycle, t.rfc_bank, t.rrd, t.ras, t.rp_bank));
+                        "rp_bank {}{}: room for a row between a bank's refreshes",
+                        banks, row_cycle, t.rfc_bank, t.rrd, t.ras, t.rp_bank, with));
   }
 
   // A number that its key has by itself needs no source.
   void sources(const KeyCollector& timing, const KeyCollector& without) const {
     std::vector<std::string> known;
     std::vector<std::string> may_have = {kDefaultSource, "refresh_postpone_limit", "hot",
-                                         "current_spread"};
+                                         "current_spread", "command_bus"};
     for (std::size_t i = 0; i < timing.values.size(); ++i) {
       const auto& [key, value] = timing.values[i];
       const std::vector<std::string>& none = without.zero_keys;

@@ -31,6 +31,15 @@ struct Memspec {
     std::uint32_t columns = 0;            // columns of a row, each width_bits wide
   };
 
+  // Cycles of the command bus that a command takes. Timings count from the last of them.
+  struct CommandBus {
+    std::uint32_t activate = 1;
+    std::uint32_t activate_gap = 0;  // between the two of an activate; others may come in them
+    std::uint32_t column = 1;        // read, write
+    std::uint32_t row = 1;           // precharge, refresh, self-refresh
+    std::uint32_t buses = 1;         // 2: columns have one of their own
+  };
+
   // Clock cycles. Names follow JESD209-3 (tRCD is rcd).
   struct Timing {
     std::uint32_t read_latency = 0;     // RL
@@ -92,6 +101,7 @@ struct Memspec {
   std::string name;
   std::string description;
   Organisation organisation;
+  CommandBus command_bus;
   double clock_period_ns = 0;
   Timing timing_cycles;
   RefreshOrder refresh_order = RefreshOrder::kInTurn;

@@ -7,6 +7,12 @@ namespace sgs {
 
 namespace {
 constexpr std::uint64_t kNoChoice = ~std::uint64_t{0};
+
+constexpr Command command_of(RequestCommand command) {
+  constexpr std::array<Command, 4> kCommandOf = {Command::kActivate, Command::kRead,
+                                                 Command::kWrite, Command::kPrecharge};
+  return kCommandOf[static_cast<std::size_t>(command)];
+}
 }  // namespace
 
 QueuedChannel::QueuedChannel(const DramConfig& config, const Memspec& memspec, std::uint8_t channel,
@@ -23,6 +29,7 @@ QueuedChannel::QueuedChannel(const DramConfig& config, const Memspec& memspec, s
       paging_(make_page_policy(config, config.ranks * memspec.organisation.banks)),
       reads_(config.read_queue_entries, config.ranks * memspec.organisation.banks),
       writes_(config.write_queue_entries, config.ranks * memspec.organisation.banks),
+      bus_(memspec.command_bus),
       rank_requests_(config.ranks),
       waiting_(std::size_t{config.ranks} * memspec.organisation.banks),
       outcome_(std::size_t{config.ranks} * memspec.organisation.banks, RowOutcome::kMiss) {
@@ -83,6 +90,7 @@ bool QueuedChannel::tell_maintenance(std::uint32_t rank, std::uint64_t cycle) {
 
 void QueuedChannel::advance(std::uint64_t cycle) {
   while (best().cycle < cycle) issue_best();
+  hand_on_before(cycle);
 }
 
 std::uint64_t QueuedChannel::next_decision() { return empty() ? kNever : best().cycle; }
@@ -142,15 +150,12 @@ const Candidate& QueuedChannel::best() {
 }
 
 void QueuedChannel::adopt(const Choice& choice) {
-  constexpr std::array<Command, 4> kCommandOf = {Command::kActivate, Command::kRead,
-                                                 Command::kWrite, Command::kPrecharge};
   best_choice_ = choice;
   best_ = Candidate{};
   best_entry_ = RequestQueue::kNone;
   if (choice.cycle_and_kind == kNoChoice) return;
   const Work& work = works(considered_)[choice.flat_bank];
-  best_ = {choice.cycle_and_kind >> 1, kCommandOf[static_cast<std::size_t>(work.command)],
-           work.rank, work.bank};
+  best_ = {choice.cycle_and_kind >> 1, command_of(work.command), work.rank, work.bank};
   best_entry_ = work.entry;
 }
 
@@ -181,7 +186,8 @@ QueuedChannel::Work QueuedChannel::work_of(const RequestQueue& queue, std::uint3
   else
     work.command = open_row == kNoRow ? RequestCommand::kActivate : RequestCommand::kPrecharge;
   if (work.command == RequestCommand::kActivate)
-    work.wasted_within = device_.derived().activate_to_column(request.direction);
+    work.wasted_within = bus_.shape(Command::kActivate).lead +
+                         device_.derived().activate_to_column(request.direction);
   work.column = open_row == request.row;
   work.rank = request.rank;
   work.bank = request.bank;
@@ -202,8 +208,10 @@ QueuedChannel::Choice QueuedChannel::best_of(std::uint64_t banks, Choice best) {
     const auto flat_bank = static_cast<std::uint32_t>(__builtin_ctzll(banks));
     Work& work = works[flat_bank];
     if (!work.settled) work = work_of(queue(considered_), flat_bank);
-    const std::uint64_t cycle =
-        std::max({device_.earliest_flat(work.command, work.rank, flat_bank), work.ready, from});
+    const CommandShape& shape = bus_.shape(command_of(work.command));
+    const std::uint64_t last = std::max(device_.earliest_flat(work.command, work.rank, flat_bank),
+                                        std::max(work.ready, from) + shape.lead);
+    const std::uint64_t cycle = bus_.fit(shape, last - shape.lead);
     const bool possible =
         (work.entry != RequestQueue::kNone) &
         (cycle + work.wasted_within < maintenance_[work.rank].request_limit(work.bank));
@@ -225,7 +233,7 @@ void QueuedChannel::consider_maintenance() {
     if (!rank.may_act_by(best_.cycle, wanted, clock_)) continue;
     Candidate wish = rank.next(device_, wanted, clock_);
     if (wish.cycle == kNever) continue;
-    wish.cycle = std::max(wish.cycle, clock_);
+    wish.cycle = bus_.fit(bus_.shape(wish.command), std::max(wish.cycle, clock_));
     if (wish.cycle > best_.cycle) continue;
     best_ = wish;
     best_entry_ = RequestQueue::kNone;
@@ -233,9 +241,12 @@ void QueuedChannel::consider_maintenance() {
 }
 
 void QueuedChannel::issue_best() {
-  const Candidate c = best_;
+  Candidate c = best_;
   best_known_ = false;
-  clock_ = c.cycle + 1;
+  const CommandShape& shape = bus_.shape(c.command);
+  bus_.take(shape, c.cycle);
+  clock_ = bus_.separate() ? c.cycle : c.cycle + 1;
+  c.cycle += shape.lead;
   if (best_entry_ == RequestQueue::kNone) return issue_maintenance(c);
   direction_ = considered_;
   if (is_read(c.command) || is_write(c.command)) return issue_column(c, best_entry_);
@@ -316,7 +327,23 @@ void QueuedChannel::send(const Candidate& c, Command command, const ChannelReque
   }
   device_.issue(record);
   maintenance_[c.rank].on_command(command, c.cycle);
-  sink_.on_command(record);
+  hand_on(record);
+}
+
+void QueuedChannel::hand_on(const CommandRecord& record) {
+  const std::uint32_t lead = bus_.shape(record.command).lead;
+  hand_on_before(record.cycle - lead + 1);
+  if (lead == 0) return sink_.on_command(record);
+  const auto later = [](const CommandRecord& a, const CommandRecord& b) {
+    return a.cycle < b.cycle;
+  };
+  begun_.insert(std::upper_bound(begun_.begin(), begun_.end(), record, later), record);
+}
+
+void QueuedChannel::hand_on_before(std::uint64_t cycle) {
+  std::size_t over = 0;
+  for (; over < begun_.size() && begun_[over].cycle < cycle; ++over) sink_.on_command(begun_[over]);
+  begun_.erase(begun_.begin(), begun_.begin() + static_cast<std::ptrdiff_t>(over));
 }
 
 void QueuedChannel::complete(const ChannelRequest& request, std::uint64_t cycle) {

@@ -3,8 +3,8 @@
 // It knows no SystemC and no clock ticks. Between two arrivals its course is fixed, so it is worked
 // out only when somebody looks: advance(c) takes all decisions that fall before cycle c. All
 // arrivals of a cycle are therefore known to that cycle's decision, in whatever order they came.
-// One command a cycle; the earliest possible goes first, at equal cycles columns before row
-// commands, older requests before younger.
+// The command that can begin first goes first, at equal cycles columns before row commands, older
+// requests before younger.
 #pragma once
 
 #include <array>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "modules/dram/channel_request.h"
+#include "modules/dram/command_bus.h"
 #include "modules/dram/device_timing.h"
 #include "modules/dram/dram_config.h"
 #include "modules/dram/page_policy.h"
@@ -70,8 +71,8 @@ class QueuedChannel {
     std::uint64_t order = 0;
   };
 
-  // A command and the request that it is for. Less is better: the earlier cycle, at equal cycles a
-  // column before a row command, then the older request.
+  // A command and the request that it is for. Less is better: the earlier first cycle, at equal
+  // ones a column before a row command, then the older request.
   struct Choice {
     std::uint64_t cycle_and_kind = ~std::uint64_t{0};  // cycle * 2, plus 1 when no column
     std::uint64_t order = 0;
@@ -99,6 +100,8 @@ class QueuedChannel {
   void issue_best();
   void issue_maintenance(const Candidate& candidate);
   void send(const Candidate& candidate, Command command, const ChannelRequest* request);
+  void hand_on(const CommandRecord& record);
+  void hand_on_before(std::uint64_t cycle);
   void issue_column(const Candidate& candidate, std::int32_t entry);
   void complete(const ChannelRequest& request, std::uint64_t cycle);
   void tell_queues(std::uint32_t bank, std::uint32_t open_row);
@@ -118,7 +121,10 @@ class QueuedChannel {
 
   Direction direction_ = Direction::kRead;   // of the last request's command
   Direction considered_ = Direction::kRead;  // for the choice at hand; a look must change nothing
-  std::uint64_t clock_ = 0;                  // the command bus is free from here on
+  std::uint64_t clock_ = 0;                  // no command begins before
+  CommandBus bus_;
+  // Commands whose last cycle is yet to come, in its order; others may come before.
+  std::vector<CommandRecord> begun_;
   // Arrival of the last request: state that it changes, as the wanted direction, is not decided
   // before.
   std::uint64_t arrived_ = 0;
@@ -139,7 +145,7 @@ class QueuedChannel {
   std::vector<RowOutcome> outcome_;         // by bank: of the next column
   std::array<std::vector<Work>, 2> works_;  // by direction and bank
   bool best_known_ = false;
-  Candidate best_;
+  Candidate best_;                                 // its cycle is the first one of the command
   std::int32_t best_entry_ = RequestQueue::kNone;  // none: maintenance
   Choice best_choice_;                             // choice among requests
   RingQueue<Completion> read_completions_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <numeric>
 
 namespace sgs {
 
@@ -154,6 +155,22 @@ std::uint32_t TraceChecker::banks_of(const CommandRecord& r) const {
   return std::min(memspec_.organisation.banks_per_refresh, memspec_.organisation.banks - r.bank);
 }
 
+std::size_t TraceChecker::bus_of(C command) const {
+  const bool column = contains(kReads | kWrites, command);
+  return column ? memspec_.command_bus.buses - 1 : 0;
+}
+
+std::vector<std::uint64_t> TraceChecker::bus_cycles(C command, std::uint64_t last) const {
+  const Memspec::CommandBus& bus = memspec_.command_bus;
+  if (command == C::kPowerDownEnter || command == C::kPowerDownExit) return {last};
+  const bool activate = command == C::kActivate;
+  if (activate && bus.activate_gap > 0) return {last - bus.activate_gap - 1, last};
+  const bool column = contains(kReads | kWrites, command);
+  std::vector<std::uint64_t> cycles(activate ? bus.activate : column ? bus.column : bus.row);
+  std::iota(cycles.begin(), cycles.end(), last + 1 - cycles.size());
+  return cycles;
+}
+
 std::optional<TraceViolation> TraceChecker::check(const CommandRecord& record) {
   ++checked_;
   if (!in_range(record))
@@ -205,7 +222,15 @@ void TraceChecker::check_state(const CommandRecord& r, const Rank& rank, Verdict
 
 void TraceChecker::check_distances(const CommandRecord& r, const Channel& channel,
                                    Verdict& verdict) const {
-  verdict.at_least(channel.bus_free, "command bus");
+  const std::set<std::uint64_t>& taken = channel.bus[bus_of(r.command)];
+  const auto is_taken = [&](std::uint64_t last) {
+    const std::vector<std::uint64_t> cycles = bus_cycles(r.command, last);
+    return std::any_of(cycles.begin(), cycles.end(),
+                       [&](std::uint64_t cycle) { return taken.count(cycle) > 0; });
+  };
+  std::uint64_t free = std::max(r.cycle, channel.last_cycle);
+  while (is_taken(free)) ++free;
+  if (free > r.cycle) verdict.at_least(free, "command bus");
   const auto consider = [&](const Times& last, const Rule& rule) {
     for (std::size_t c = 0; c < kCommands; ++c)
       if (contains(rule.before, static_cast<Command>(c)) && last[c] != 0)
@@ -262,7 +287,11 @@ void TraceChecker::apply(const CommandRecord& r) {
   Rank& rank = channel.ranks[r.rank];
   Bank& bank = rank.banks[r.bank];
   const auto c = static_cast<std::size_t>(r.command);
-  channel.bus_free = r.cycle + 1;
+  channel.last_cycle = std::max(channel.last_cycle, r.cycle);
+  std::set<std::uint64_t>& taken = channel.bus[bus_of(r.command)];
+  for (const std::uint64_t cycle : bus_cycles(r.command, r.cycle)) taken.insert(cycle);
+  constexpr std::size_t kKept = 64;  // no command looks farther back
+  while (taken.size() > kKept) taken.erase(taken.begin());
   rank.last[c] = r.cycle + 1;
   rank.groups[r.bank % rank.groups.size()][c] = r.cycle + 1;
   for (std::uint32_t b = r.bank; b < r.bank + banks_of(r); ++b) rank.banks[b].last[c] = r.cycle + 1;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -67,7 +68,8 @@ class TraceChecker : public CommandSink {
   };
   struct Channel {
     std::vector<Rank> ranks;
-    std::uint64_t bus_free = 0;
+    std::uint64_t last_cycle = 0;
+    std::array<std::set<std::uint64_t>, 2> bus;  // cycles taken of late
   };
   struct Verdict {
     std::uint64_t earliest = 0;
@@ -81,6 +83,9 @@ class TraceChecker : public CommandSink {
   bool in_range(const CommandRecord& record) const;
   // Of the command: its own, and with a per-bank refresh those that it takes too.
   std::uint32_t banks_of(const CommandRecord& record) const;
+  std::size_t bus_of(Command command) const;
+  // Cycles of its bus that a command takes whose last one is `last`.
+  std::vector<std::uint64_t> bus_cycles(Command command, std::uint64_t last) const;
   void check_state(const CommandRecord& record, const Rank& rank, Verdict& verdict) const;
   void check_distances(const CommandRecord& record, const Channel& channel, Verdict& verdict) const;
   void check_windows(const CommandRecord& record, const Rank& rank, Verdict& verdict) const;

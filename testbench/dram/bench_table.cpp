@@ -173,6 +173,14 @@ StreamBench part_bench(const std::string& memspec, std::size_t stream, std::uint
   return bench;
 }
 
+namespace {
+// Of the command bus, or of the busier of two: an activate, the reads, a precharge.
+std::uint32_t command_cycles(const Memspec::CommandBus& bus, std::uint32_t bursts) {
+  const std::uint32_t rows = bus.activate + bus.row, columns = bursts * bus.column;
+  return bus.buses == 1 ? rows + columns : std::max(rows, columns);
+}
+}  // namespace
+
 double part_bound_gb_per_s(const Memspec& m, const StreamSpec& stream) {
   const Memspec::Timing& t = m.timing_cycles;
   const double bytes = stream.request_bytes;
@@ -180,7 +188,8 @@ double part_bound_gb_per_s(const Memspec& m, const StreamSpec& stream) {
   double cycles = bursts * std::max(m.burst_cycles(), t.ccd);  // a request, at least
   if (stream.pattern == Pattern::kRandom)
     cycles = std::max({cycles, static_cast<double>(t.rrd), t.faw / 4.0,
-                       static_cast<double>(t.ras + t.rp_bank) / m.organisation.banks});
+                       static_cast<double>(t.ras + t.rp_bank) / m.organisation.banks,
+                       static_cast<double>(command_cycles(m.command_bus, bursts))});
   return m.organisation.pseudo_channels * bytes / (cycles * m.clock_period_ns);
 }
 

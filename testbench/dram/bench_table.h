@@ -62,8 +62,8 @@ struct PartStreams {
 StreamBench part_bench(const std::string& memspec, std::size_t stream, std::uint64_t requests);
 
 // No stream of such requests is faster. In sequence the data bus binds. At random each request
-// opens a row: tRRD, tFAW, or as many banks as there are, each busy for tRAS + tRP. Turn-arounds
-// and refresh are not in it.
+// opens a row: tRRD, tFAW, its commands, or as many banks as there are, each busy for tRAS + tRP.
+// Turn-arounds and refresh are not in it.
 double part_bound_gb_per_s(const Memspec& memspec, const StreamSpec& stream);
 
 // Runs each stream in a process of its own.

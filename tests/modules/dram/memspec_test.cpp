@@ -172,6 +172,10 @@ TEST_CASE("memspecs: data rate, groups and sets of banks that cannot be are refu
             [](Memspec& m) { m.timing_cycles.rcd_write = 35; }},
            {"timing_cycles.pbr2pbr: got 97, expected at most rfc_bank 96",
             [](Memspec& m) { m.timing_cycles.pbr2pbr = 97; }},
+           {"command_bus.activate: got 4, expected 2: activate_gap parts two commands",
+            [](Memspec& m) { m.command_bus.activate = 4; }},
+           {"command_bus.column: got 3, expected at most ccd 2",
+            [](Memspec& m) { m.command_bus.column = 3; }},
            {"timing_cycles.pbr2act: got 3, expected at least rrd 4",
             [](Memspec& m) { m.timing_cycles.pbr2act = 3; }},
            {"timing_cycles.refi_bank: got 72, expected more than pbr2pbr 72",
@@ -255,6 +259,12 @@ TEST_CASE("memspecs: refresh that leaves requests no room is refused, a cycle le
     CHECK(with(row.refused).find("file: timing_cycles." + std::string(row.message)) == 0);
     CHECK(with(row.accepted) == "accepted");
   }
+  CHECK(memspec_refusal([](Memspec& m) {
+          m.command_bus = {4, 0, 4, 2, 1};
+          m.timing_cycles.refi = 123;
+        }) ==
+        "file: timing_cycles.refi: got 123, expected more than rfc_all 104 + rcd 15 + 4 of "
+        "the command bus: room for an activate between refreshes");
 }
 
 // As DRAMSys has them, with what is asked for here.
@@ -351,6 +361,9 @@ TEST_CASE("memspecs: DRAMSys's other forms, and what has none") {
   CHECK(hbm.organisation.pseudo_channels == 2);
   CHECK(hbm.timing_cycles.rcd == 12);
   CHECK(hbm.timing_cycles.rcd_write == 6);
+  CHECK(hbm.command_bus.buses == 2);
+  CHECK(hbm.command_bus.activate == 2);
+  CHECK(ddr4.command_bus.activate == 1);
   CHECK(hbm.notes.front().find("no currents") != std::string::npos);
   CHECK(refusal([&] {
           load_memspec(with({{"LPDDR4", "WIDEIO_SDR"}}));

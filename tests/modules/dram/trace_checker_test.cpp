@@ -195,6 +195,40 @@ TEST_CASE("trace checker: constraints of bank groups, and those that some standa
   CHECK(refreshed(1, false) == "refresh of banks that do not go together");
 }
 
+TEST_CASE("trace checker: commands take their cycles of the command bus, each on its own") {
+  using Bus = Memspec::CommandBus;
+  const auto found = [](const Bus& bus, const std::vector<Step>& steps) {
+    Memspec memspec = load_memspec("lpddr3_1600_4gb");
+    memspec.command_bus = bus;
+    CommandTraceHeader header;
+    header.ranks = 2;
+    TraceChecker checker(memspec, header);
+    std::optional<TraceViolation> last;
+    for (const Step& step : steps) {
+      REQUIRE_FALSE(last);
+      last = checker.check(record(step));
+    }
+    return last ? last->constraint + ", " + std::to_string(last->earliest) : "";
+  };
+  const Bus lpddr4{4, 0, 4, 2, 1}, lpddr5{2, 1, 1, 1, 1}, hbm{2, 0, 1, 1, 2};
+  // Timings count from the last cycle, which is the trace's.
+  CHECK(found(lpddr4, {{10, C::kActivate}, {25, C::kRead}}).empty());
+  CHECK(found(lpddr4, {{10, C::kActivate}, {13, C::kActivate, 1}}) == "command bus, 14");
+  CHECK(found(lpddr4, {{10, C::kActivate}, {14, C::kActivate, 1}}).empty());
+  CHECK(found(lpddr4, {{10, C::kActivate}, {11, C::kRefreshAll, 1}}) == "command bus, 12");
+  CHECK(found(lpddr4, {{10, C::kActivate}, {12, C::kRefreshAll, 1}}).empty());
+  CHECK(found(lpddr4, {{10, C::kActivate}, {11, C::kPowerDownEnter, 1}}).empty());
+  // One command between the two of an activate, none in their cycles.
+  CHECK(found(lpddr5, {{9, C::kRefreshAll, 1}, {10, C::kActivate}}).empty());
+  CHECK(found(lpddr5, {{8, C::kRefreshAll, 1}, {10, C::kActivate}}) == "command bus, 11");
+  CHECK(found(lpddr5, {{10, C::kRefreshAll, 1}, {10, C::kActivate}}) == "command bus, 11");
+  // A bus each for rows and columns.
+  CHECK(found(hbm, {{10, C::kActivate}, {39, C::kRead}, {39, C::kActivate, 1}}).empty());
+  CHECK(found(hbm, {{10, C::kActivate}, {11, C::kActivate, 1}}) == "command bus, 12");
+  CHECK(found({}, {{10, C::kActivate}, {39, C::kRead}, {39, C::kActivate, 1}}) ==
+        "command bus, 40");
+}
+
 TEST_CASE("trace checker: pseudo-channels are channels of their own") {
   const Memspec memspec = load_memspec("hbm2e_3200_16gb");
   CommandTraceHeader header;

@@ -80,6 +80,8 @@ TEST_CASE("part streams: bounds by hand") {
   CHECK(bound(lpddr3, Pattern::kRandom, 32) == Approx(4 * 32 / (40 * 1.25)));  // tFAW
   CHECK(bound(hbm, Pattern::kSequential, 32) == Approx(2 * 25.6));             // pseudo-channels
   CHECK(bound(hbm, Pattern::kRandom, 64) == Approx(2 * 64 / (7 * 0.625)));     // tRRD
+  // ACT-1, ACT-2, two reads and a precharge on one command bus.
+  CHECK(bound(load_memspec("lpddr5_6400_8gb"), Pattern::kRandom, 64) == Approx(64 / (5 * 1.25)));
   // A burst of 64 bytes for each 32.
   CHECK(bound(load_memspec("ddr5_4800_16gb"), Pattern::kSequential, 32) ==
         Approx(19.2 / 2).epsilon(1e-4));

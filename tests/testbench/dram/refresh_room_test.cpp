@@ -17,16 +17,22 @@ TEST_CASE("refresh: a stream ends at the limits that check_memspec draws") {
   struct Row {
     RefreshMode refresh;
     std::vector<std::pair<std::uint32_t T::*, std::uint32_t>> timing;
+    Memspec::CommandBus command_bus = {};
   };
   const test::ScratchFolder scratch;
-  for (const Row& row : std::vector<Row>{
-           {RefreshMode::kAllBank, {{&T::refi, 120}}},
-           {RefreshMode::kPerBank, {{&T::refi_bank, 49}}},
-           {RefreshMode::kPerBank, {{&T::rrd, 389}, {&T::faw, 389}}},
-           {RefreshMode::kPerBank, {{&T::faw, 1559}}},
-           {RefreshMode::kPerBank, {{&T::ras, 3048}, {&T::rc, 3048}, {&T::rcd, 3015}}}}) {
+  for (const Row& row :
+       std::vector<Row>{{RefreshMode::kAllBank, {{&T::refi, 120}}},
+                        {RefreshMode::kPerBank, {{&T::refi_bank, 49}}},
+                        {RefreshMode::kPerBank, {{&T::rrd, 389}, {&T::faw, 389}}},
+                        {RefreshMode::kPerBank, {{&T::faw, 1559}}},
+                        {RefreshMode::kPerBank, {{&T::ras, 3048}, {&T::rc, 3048}, {&T::rcd, 3015}}},
+                        {RefreshMode::kAllBank, {{&T::refi, 124}}, {4, 0, 4, 2, 1}},
+                        {RefreshMode::kPerBank, {{&T::refi_bank, 53}}, {4, 0, 4, 2, 1}},
+                        {RefreshMode::kPerBank, {{&T::rrd, 385}, {&T::faw, 385}}, {4, 0, 4, 2, 1}},
+                        {RefreshMode::kPerBank, {{&T::faw, 1543}}, {4, 0, 4, 2, 1}}}) {
     Memspec memspec = load_memspec("lpddr3_1600_4gb");
     for (const auto& [key, cycles] : row.timing) memspec.timing_cycles.*key = cycles;
+    memspec.command_bus = row.command_bus;
     check_memspec(memspec, "row");
     StreamBench bench;
     bench.dram.memspec = scratch.write("memspec.json", config_to_json(memspec));
