@@ -8,6 +8,7 @@
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/output_file.h"
+#include "algorithm/scene/ply_header.h"
 
 namespace sgs {
 namespace {
@@ -31,9 +32,12 @@ void check_lengths(const std::string& path, const GaussianCloud& cloud) {
   }
 }
 
-std::string header_of(const GaussianCloud& cloud) {
-  std::string header =
-      fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", cloud.size());
+std::string header_of(const GaussianCloud& cloud, const std::vector<std::string>& notes) {
+  std::string header = "ply\nformat binary_little_endian 1.0\n";
+  if (std::find(notes.begin(), notes.end(), kAntialiasedNote) != notes.end()) {
+    header += "comment SplatRenderMode: mip\n";  // as Brush has it
+  }
+  header += fmt::format("element vertex {}\n", cloud.size());
   const auto add = [&header](const char* name, int count) {
     for (int i = 0; i < count; ++i) header += fmt::format("property float {}{}\n", name, i);
   };
@@ -64,10 +68,11 @@ void append_record(const GaussianCloud& cloud, std::size_t i, std::vector<float>
 
 }  // namespace
 
-void write_ply(const std::string& path, const GaussianCloud& cloud) {
+void write_ply(const std::string& path, const GaussianCloud& cloud,
+               const std::vector<std::string>& notes) {
   check_lengths(path, cloud);
   OutputFile output(path);
-  output.write(header_of(cloud));
+  output.write(header_of(cloud, notes));
   std::vector<float> block;
   for (std::size_t begin = 0; begin < cloud.size(); begin += kBlockRecords) {
     block.clear();

@@ -33,7 +33,7 @@ int run(const ConvertArguments& arguments) {
   plan.add_output(out);
   plan.check();
   const Scene scene = arguments.load();
-  write_ply(out, scene.cloud);
+  write_ply(out, scene.cloud, scene.notes);
   if (scene.dropped_invalid > 0) {
     fmt::print("dropped invalid: {} Gaussians\n", grouped(scene.dropped_invalid));
   }

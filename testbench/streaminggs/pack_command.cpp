@@ -66,7 +66,7 @@ int run(const PackArguments& arguments, const Kinds& kinds) {
   const PackedFacts facts{prepared.name, prepared.stored.gaussians, prepared.dropped_invalid,
                           prepared.stored.sh_bands_left_out};
   if (as_ply) {
-    write_ply(arguments.out, stored_cloud(scene.cloud, prepared.stored));
+    write_ply(arguments.out, stored_cloud(scene.cloud, prepared.stored), scene.notes);
   } else {
     write_image_file(arguments.out, facts, prepared.stored.storage, image);
   }

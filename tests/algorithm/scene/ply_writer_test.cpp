@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "algorithm/scene/gaussian_cloud.h"
+#include "algorithm/scene/ply_header.h"
 #include "algorithm/scene/ply_reader.h"
 #include "testbench/builtin/random.h"
 #include "tests/algorithm/scene/ply_bytes.h"
@@ -61,6 +62,17 @@ TEST_CASE("ply writer: the file is the original's, byte for byte") {
   const std::string bytes = test::bytes_of(table);
   write_ply(scratch.path("b.ply"), read_ply(scratch.write("a.ply", bytes)).cloud);
   CHECK(test::bytes_of(scratch.path("b.ply")) == bytes);
+}
+
+TEST_CASE("ply writer: what is noted of an anti-aliased scene is noted of the file") {
+  const test::ScratchFolder scratch;
+  const GaussianCloud cloud = random_cloud(3, 1);
+  write_ply(scratch.path("a.ply"), cloud, {"a word", kAntialiasedNote});
+  const SceneContents back = read_ply(scratch.path("a.ply"));
+  CHECK(back.notes == std::vector<std::string>{kAntialiasedNote});
+  CHECK(same_bytes(back.cloud.means, cloud.means));
+  write_ply(scratch.path("a.ply"), cloud, {"a word"});
+  CHECK(read_ply(scratch.path("a.ply")).notes.empty());
 }
 
 TEST_CASE("ply writer: bad targets and bad clouds leave nothing behind") {
