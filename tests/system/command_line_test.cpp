@@ -68,7 +68,7 @@ TEST_CASE("command line: options and their values") {
            {"$SG simulate $B --view 0,1 --out o >t && [ $(wc -l <t) -le 15 ] && cat t",
             {"\nview 1: ", " values chosen by the model: --verbose lists them\n"}},
            {"$SG simulate $B --path builtin:path --frames 3 --out o >t && [ $(wc -l <t) -le 10 ] "
-            "&& f=$(sed -n 's/.* worst [0-9]* (frame \\([0-9]\\)).*/\\1/p' t) && "
+            "&& f=$(sed -n 's/.* worst [0-9,]* (frame \\([0-9]\\)).*/\\1/p' t) && "
             "grep \"^frame $f, the slowest: .* works [0-9]* % of the frame, \" t && "
             "cat t",
             {"\n3 frames along ", "\nPSNR: worst ", "\narea ", " mm2 at 32 nm; ",
@@ -113,6 +113,11 @@ TEST_CASE("command line: options and their values") {
            {"$SG sweep $B --axis hfus=8 --fit-memories --out r --csv t >o && cat t",
             {",fit_memories,", ",true,", ",done,"}},
            {"$SG simulate $B --path builtin:path --frames 2 --out o >t && ! grep late t", {}},
+           {"$SG simulate $B --path builtin:path --frames 2 --out o >t && w=$(awk '/worst_fps/ "
+            "{gsub(/[^0-9.]/, \"\"); printf \"worst %d (frame\", $0}' o/report.json) && tr -d , <t "
+            "| "
+            "grep \"$w\"",
+            {"frames a second worst "}},
            {"$SG simulate $B --path builtin:path --frames 2 --frame-rate 1e6 --out o",
             {"\n2 of 2 frames take longer than 1/1e+06 s: the next one begins late\n"}},
            {"$SG render $B --out new/folder/a.png && ls new/folder",
@@ -243,6 +248,9 @@ TEST_CASE("command line: a picture of nothing, and Gaussians that are dropped, a
             "grep \"^nothing .* $(awk '/ yes / {print $NF}' s) mJ \" t && cat t",
             {"nothing ", "doubled "},
             ply_of({"0 0 0"})},
+           {"$SG what-if a.ply --cameras c --set clock_mhz=1001 2>&1 >t",
+            {"streaminggs: note: clock_mhz 1001: "},
+            ply_of({"0 0 -9"})},
            {"script -qec \"$SG what-if a.ply --cameras c\" /dev/null </dev/null",
             {"\rview 0: 0 of ", " keys tried, now "},
             ply_of({"0 0 0"})},

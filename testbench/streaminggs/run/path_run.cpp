@@ -99,7 +99,8 @@ class DrawnFrames {
     if (view.psnr_db < worst_psnr_db_) worst_picture_ = number;
     worst_psnr_db_ = std::min(worst_psnr_db_, view.psnr_db);
     if (sheet_.shows(number)) {
-      sheet_.add(view.frame, fmt::format("{} - {:.0f} FPS", number, 1 / view.run.time_s()));
+      sheet_.add(view.frame,
+                 fmt::format("{} - {} FPS", number, rate_in_words(1 / view.run.time_s())));
     }
     if (!slowest_ || view.run.time_s() > slowest_->run.time_s()) slowest_ = std::move(view);
   }
@@ -112,10 +113,9 @@ class DrawnFrames {
 
   void print() const {
     const PathSummary s = summary();
-    fmt::print(
-        "\n{} frames along {}: frames a second worst {:.0f} (frame {}), p99 {:.0f}, median "
-        "{:.0f}\n",
-        s.frames, job_.name, s.worst_fps, s.worst_frame, s.p99_fps, s.median_fps);
+    fmt::print("\n{} frames along {}: frames a second worst {} (frame {}), p99 {}, median {}\n",
+               s.frames, job_.name, rate_in_words(s.worst_fps), s.worst_frame,
+               rate_in_words(s.p99_fps), rate_in_words(s.median_fps));
     fmt::print(
         "{} mJ a frame; at {} frames a second {} J a second: {} for frames, {} between them\n",
         rounded(1e3 * s.energy_j / static_cast<double>(s.frames)), rounded(s.rate),

@@ -20,6 +20,7 @@
 #include "testbench/streaminggs/report/frame_noise.h"
 #include "testbench/streaminggs/report/memory_interface.h"
 #include "testbench/streaminggs/run/camera_check.h"
+#include "testbench/streaminggs/run/clock_check.h"
 #include "testbench/streaminggs/run/frame_run.h"
 #include "testbench/streaminggs/run/prepared_scene.h"
 #include "testbench/streaminggs/run/progress.h"
@@ -230,6 +231,8 @@ int run(const WhatIfArguments& arguments, const Kinds& kinds) {
         arguments.weighing_cameras(scene.cameras, config.storage.encoding);
     base.scene = prepare(std::move(scene), config, weighing, CodebookCache(arguments.cache));
   }
+  const std::string doubt = doubt_about_clock(config, base.technology);
+  if (!doubt.empty()) fmt::print(stderr, "streaminggs: note: {}\n", doubt);
   base.resolved = to_json(config);
   RunConfig decided = as_decided(arguments.config.document(), config);
   base.document = to_json(decided);
