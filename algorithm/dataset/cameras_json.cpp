@@ -138,13 +138,16 @@ StatedDataset views_of_camera_path(const nlohmann::ordered_json& document,
                                                  "keyframes",    "default_fov",
                                                  "type",         "smoothness_value",
                                                  "smoothness",   "default_transition_sec"};
-  static const std::vector<std::string> kFrameKeys = {"camera_to_world", "fov", "aspect"};
+  static const std::vector<std::string> kFrameKeys = {"camera_to_world", "fov", "aspect",
+                                                      "camera_type"};
   StatedDataset dataset;
   dataset.files = {path};
   const JsonPlace file(path, document);
-  if (const auto type = file.find("camera_type"); type && type->text() != "perspective") {
-    type->refuse(type->text(), "perspective");
-  }
+  const auto expect_perspective = [](const JsonPlace& of) {
+    const auto type = of.find("camera_type");
+    if (type && type->text() != "perspective") type->refuse(type->text(), "perspective");
+  };
+  expect_perspective(file);
   if (const auto crop = file.find("crop"); crop && !crop->json().is_null()) {
     crop->refuse("null: the whole scene is drawn");
   }
@@ -153,6 +156,7 @@ StatedDataset views_of_camera_path(const nlohmann::ordered_json& document,
   for (const JsonPlace& frame : file.at("camera_path").elements("an array of cameras")) {
     dataset.views.push_back(
         view_of_frame(frame.with_defaults(document), width, height, dataset.views.size()));
+    expect_perspective(frame);
     count_unread(frame, kFrameKeys, dataset.unread_keys);
   }
   count_unread(file, kKeys, dataset.unread_keys);

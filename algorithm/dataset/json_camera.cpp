@@ -30,7 +30,7 @@ void refuse_other_cameras(const JsonPlace& camera) {
   if (const auto focal = camera.find("ftheta_p0")) {
     focal->refuse("no f-theta lens, but a pinhole or fisheye");
   }
-  for (const char* key : {"sk_x", "sk_y"}) {
+  for (const char* key : {"sk_x", "sk_y", "skew"}) {
     const auto skew = camera.find(key);
     if (skew && skew->number() != 0) skew->refuse("0: no skew");
   }
@@ -126,8 +126,9 @@ glm::dmat4 matrix_of(const JsonPlace& place, std::size_t columns) {
 void count_unread(const JsonPlace& object, const std::vector<std::string>& known,
                   std::map<std::string, int>& counts) {
   static const std::vector<std::string> kOfLenses = [] {
-    std::vector<std::string> keys = {"camera_model", "is_fisheye", "distortion_params", "ftheta_p0",
-                                     "sk_x",         "sk_y",       "rolling_shutter"};
+    std::vector<std::string> keys = {"camera_model", "is_fisheye",     "distortion_params",
+                                     "ftheta_p0",    "sk_x",           "sk_y",
+                                     "skew",         "rolling_shutter"};
     keys.insert(keys.end(), kCoefficients.begin(), kCoefficients.end());
     keys.insert(keys.end(), kOtherCameras.begin(), kOtherCameras.end());
     return keys;

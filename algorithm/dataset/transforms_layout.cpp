@@ -1,6 +1,7 @@
 // transforms.json and its kin, as nerfstudio and instant-ngp write them.
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -37,6 +38,16 @@ std::optional<double> angle_at(const JsonPlace& frame, const char* key) {
   if (!angle) return {};
   if (!(angle->number() > 0 && angle->number() < M_PI)) angle->refuse("radians between 0 and pi");
   return angle->number();
+}
+
+// False where a focal length is stated that makes another angle; it is the one that is read.
+bool angle_fits(const JsonPlace& frame, const char* angle, const char* focal, const char* size) {
+  constexpr double kOfRounding = 0.01;
+  const auto stated = number_at(frame, angle), length = number_at(frame, focal),
+             size_px = number_at(frame, size);
+  if (!stated || !length || !size_px) return true;
+  const double made = 2 * std::atan2(*size_px / 2, *length);
+  return std::abs(made - *stated) <= kOfRounding * made;
 }
 
 Intrinsics intrinsics_of(const JsonPlace& frame) {
@@ -118,7 +129,16 @@ class TransformsFile {
                                                    "cx",
                                                    "cy"};
     count_unread(JsonPlace(path_, json_), kKeys, counts);
-    for (const Json& frame : json_["frames"]) count_unread(JsonPlace(path_, frame), kKeys, counts);
+    for (const Json& frame : json_["frames"]) {
+      count_unread(JsonPlace(path_, frame), kKeys, counts);
+      const JsonPlace with_defaults = JsonPlace(path_, frame).with_defaults(json_);
+      for (const auto& [angle, focal, size] :
+           {std::array{"camera_angle_x", "fl_x", "w"}, std::array{"camera_angle_y", "fl_y", "h"}}) {
+        if (!angle_fits(with_defaults, angle, focal, size)) {
+          ++counts[fmt::format("{}, since {} says otherwise", angle, focal)];
+        }
+      }
+    }
   }
 
  private:

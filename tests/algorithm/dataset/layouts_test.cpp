@@ -1,4 +1,6 @@
 // Each layout: the same cameras, pictures, splits and points, whatever the axes of the format.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -414,6 +416,19 @@ TEST_CASE("dataset: names that say nothing here are counted") {
   REQUIRE(dataset.notes.size() == 1);
   CHECK(dataset.notes[0].first == "not read");
   CHECK(dataset.notes[0].second == "aabb_scale, applied_transform, sharpness (10 times)");
+  // An angle that a focal length stands before, where it is not the same.
+  const auto note_with = [](double angle) {
+    const ScratchFolder angles;
+    write_transforms(angles.path(""), made_scene());
+    replace("transforms.json", "{",
+            fmt::format("{{\"camera_angle_x\": {}, ", angle))(angles.path(""));
+    const Dataset read = open_dataset(angles.path(""));
+    return read.notes.empty() ? "" : read.notes[0].second;
+  };
+  const Camera& camera = open_dataset(scratch.path("")).views[0].camera;
+  const double angle = 2 * std::atan(camera.width / 2.0 / camera.focal_x);
+  CHECK(note_with(angle).empty());
+  CHECK(note_with(1.1 * angle) == "camera_angle_x, since fl_x says otherwise (10 times)");
   const ScratchFolder colmap;
   write_colmap_text(colmap.path(""), made_scene());
   write_file(colmap.path(""), "masks/shot_00.png.png", "");

@@ -373,6 +373,7 @@ TEST_CASE("dataset refuses: cameras that are neither pinhole nor fisheye, by nam
       {write_transforms, with_keys("\"latlong\": true, "), {"frame 0: latlong: got true"}},
       {write_transforms, with_keys("\"ftheta_p0\": 0.1, "), {"frame 0: ftheta_p0: got 0.1"}},
       {write_transforms, with_keys("\"sk_x\": 0.5, "), {"frame 0: sk_x: got 0.5, expected 0"}},
+      {write_transforms, with_keys("\"skew\": 0.5, "), {"frame 0: skew: got 0.5, expected 0"}},
       {write_transforms,
        with_keys("\"rolling_shutter\": [0, 0, 0.5], "),
        {"frame 0: rolling_shutter[2]: got 0.5, expected 0"}},

@@ -186,6 +186,9 @@ TEST_CASE("view cameras refuse: in a line with file, place, what is there and wh
   CHECK_THAT(refusal("3"), Contains("p.json: got 3, expected an array of cameras"));
   CHECK_THAT(refusal(path_of(scene, "\"camera_type\": \"equirectangular\", ")),
              Contains("p.json: camera_type: got equirectangular, expected perspective"));
+  std::string one_fisheye = path_of(scene);
+  one_fisheye.insert(one_fisheye.find("\"fov\""), "\"camera_type\": \"fisheye\", ");
+  CHECK_THAT(refusal(one_fisheye), Contains("camera_type: got fisheye, expected perspective"));
   CHECK_THAT(refusal(path_of(scene, "\"crop\": {}, ")),
              Contains("p.json: crop: got {}, expected null"));
   const std::string good = path_of(scene, "\"crop\": null, \"camera_type\": \"perspective\", ");
