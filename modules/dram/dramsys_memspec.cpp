@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_json.h"
@@ -100,6 +101,8 @@ class Conversion {
         notes.push_back(fmt::format("{}: {} is {}: dram.{} decides", origin_, key,
                                     of("memarchitecturespec", key),
                                     std::string(key) == "nbrOfRanks" ? "ranks" : "channels"));
+    if (const std::vector<std::string> unread = unread_numbers(); !unread.empty())
+      notes.push_back(fmt::format("{}: not read: {}", origin_, join(unread)));
     return ours_;
   }
 
@@ -120,10 +123,21 @@ class Conversion {
     if (!spec_.contains(section)) return 0;
     const Json& in = spec_[section];
     if (!in.is_object()) refuse(section, shown(in), "an object");
+    read_.insert(key);
     if (!in.contains(key)) return 0;
     if (!in[key].is_number() || in[key].get<double>() < 0)
       refuse(fmt::format("{}.{}", section, key), shown(in[key]), "a number of at least 0");
     return in[key].get<double>();
+  }
+
+  // Of organisation and timing: what is named otherwise, or is of a rule that is not kept here.
+  std::vector<std::string> unread_numbers() const {
+    std::vector<std::string> unread;
+    for (const char* section : {"memarchitecturespec", "memtimingspec"})
+      if (spec_.contains(section))
+        for (const auto& [key, value] : spec_[section].items())
+          if (read_.count(key) == 0 && value != 0) unread.push_back(key);
+    return unread;
   }
 
   std::int64_t of(const char* section, const char* key) const {
@@ -268,6 +282,7 @@ class Conversion {
   const Json& spec_;
   const std::string& origin_;
   Json ours_;
+  mutable std::set<std::string> read_;  // names that were looked for
   std::int64_t groups_ = 1, banks_ = 0;
   bool refreshes_alone_ = false;  // a per-bank refresh leaves other banks alone
   std::vector<std::string> stand_ins_;
