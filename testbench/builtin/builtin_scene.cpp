@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "algorithm/files/input_error.h"
+#include "testbench/builtin/capture_scene.h"
 #include "testbench/builtin/object_scene.h"
 #include "testbench/builtin/outdoor_scene.h"
 
@@ -28,6 +29,7 @@ struct Recipe {
 
 const std::map<std::string, Recipe>& recipes() {
   static const std::map<std::string, Recipe> kRecipes = {
+      {"capture", {1'000'000, make_capture_scene, capture_ring}},
       {"object", {60'000, make_object_scene, object_turntable}},
       {"outdoor", {200'000, make_outdoor_scene, outdoor_walk}}};
   return kRecipes;

@@ -102,6 +102,8 @@ ScenePart trunk_part(const glm::dvec3& root, double height, double radius, doubl
   });
 }
 
+}  // namespace
+
 LeafTree leaf_tree(const glm::dvec3& root, Random& random) {
   LeafTree tree{root, random.uniform(4.2, 6.8), {}, {}};
   const double autumn = random.uniform() < 0.2 ? 1.0 : random.uniform(0.0, 0.25);
@@ -114,8 +116,6 @@ LeafTree leaf_tree(const glm::dvec3& root, Random& random) {
   }
   return tree;
 }
-
-}  // namespace
 
 Plants planted() {
   Random random(4711);

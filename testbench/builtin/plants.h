@@ -1,9 +1,10 @@
-// The trees of the built-in scene `outdoor`.
+// Trees of the built-in scenes, those of `outdoor` above all.
 #pragma once
 
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "testbench/builtin/random.h"
 #include "testbench/builtin/scene_builder.h"
 
 namespace sgs {
@@ -29,6 +30,9 @@ struct Plants {
   std::vector<LeafTree> leaf_trees;
   std::vector<Conifer> conifers;
 };
+
+// A tree on `root`, 4.2 to 6.8 units high.
+LeafTree leaf_tree(const glm::dvec3& root, Random& random);
 
 // Trees around the origin, none on the path, in the pond or where the buildings stand.
 Plants planted();

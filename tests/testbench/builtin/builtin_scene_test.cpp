@@ -3,12 +3,19 @@
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <iomanip>
+#include <numeric>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "algorithm/scene/describe.h"
 #include "tests/support/same_bytes.h"
@@ -26,7 +33,7 @@ bool same_bits(const GaussianCloud& a, const GaussianCloud& b) {
          same_bytes(a.opacity_logits, b.opacity_logits) && same_bytes(a.sh_coeffs, b.sh_coeffs);
 }
 
-void check_usable(const BuiltinScene& scene, std::size_t count) {
+void check_usable(const BuiltinScene& scene, std::size_t count, int width, int height) {
   const GaussianCloud& cloud = scene.cloud;
   REQUIRE(cloud.size() == count);
   REQUIRE(cloud.sh_degree == 3);
@@ -44,13 +51,27 @@ void check_usable(const BuiltinScene& scene, std::size_t count) {
   CHECK(bad == 0);
   REQUIRE(scene.cameras.size() >= 4);
   for (const Camera& camera : scene.cameras) {
-    CHECK(camera.width == 640);
-    CHECK(camera.height == 360);
+    CHECK(camera.width == width);
+    CHECK(camera.height == height);
     CHECK(glm::determinant(camera.world_from_camera) == Approx(1.0));
     // Level horizon: the x axis has no vertical part, and the y axis points down.
     CHECK(camera.world_from_camera[0].y == Approx(0.0).margin(1e-12));
     CHECK(camera.world_from_camera[1].y > 0.5);
   }
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double deviation(const std::vector<double>& values) {
+  const auto count = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+  double sum = 0;
+  for (const double value : values) sum += (value - mean) * (value - mean);
+  return std::sqrt(sum / count);
 }
 
 // Of values in their order, each with a weight of its own. Logarithmic, so that what lies far away
@@ -92,7 +113,9 @@ TEST_CASE("built-in scenes: they are the ones that measurements were made with")
     const char* spec;
     double means, log_scales, quats, opacities, colours, cameras, path;
   };
-  for (const Row& row : {Row{"builtin:object?n=20000", -18000.7857, -189141.3029, 20749.5507,
+  for (const Row& row : {Row{"builtin:capture?n=20000", -43691.3192, -104464.9606, 23057.5226,
+                             -32811.9019, -64823.4470, 87.53034386, 778.32853244},
+                         Row{"builtin:object?n=20000", -18000.7857, -189141.3029, 20749.5507,
                              36594.6909, -30234.4444, 107.18005882, 758.58498},
                          Row{"builtin:outdoor?n=20000", -36023.5788, -73104.8493, 21869.0594,
                              30450.7138, -52603.3623, 110.49658125, 518.13965}}) {
@@ -123,22 +146,28 @@ TEST_CASE("built-in scenes: they are the ones that measurements were made with")
 }
 
 TEST_CASE("built-in scenes: any count from one on is usable") {
-  for (const char* name : {"object", "outdoor"}) {
+  for (const std::string name : {"capture", "object", "outdoor"}) {
     for (const std::size_t count : {1u, 2u, 3u, 10u, 257u, 5000u}) {
       CAPTURE(name, count);
-      const std::string spec = std::string("builtin:") + name + "?n=" + std::to_string(count);
-      check_usable(make_builtin_scene(spec), count);
+      const BuiltinScene scene =
+          make_builtin_scene("builtin:" + name + "?n=" + std::to_string(count));
+      if (name == "capture") {
+        check_usable(scene, count, 980, 545);
+      } else {
+        check_usable(scene, count, 640, 360);
+      }
     }
   }
 }
 
 TEST_CASE("built-in scenes: default counts") {
-  check_usable(make_builtin_scene("builtin:object"), 60'000);
-  check_usable(make_builtin_scene("builtin:outdoor"), 200'000);
+  check_usable(make_builtin_scene("builtin:object"), 60'000, 640, 360);
+  check_usable(make_builtin_scene("builtin:outdoor"), 200'000, 640, 360);
 }
 
 TEST_CASE("built-in scenes: the same bits again, on one thread too") {
-  for (const char* spec : {"builtin:object?n=20000", "builtin:outdoor?n=20000"}) {
+  for (const char* spec :
+       {"builtin:capture?n=20000", "builtin:object?n=20000", "builtin:outdoor?n=20000"}) {
     const BuiltinScene scene = make_builtin_scene(spec);
     CHECK(same_bits(scene.cloud, make_builtin_scene(spec).cloud));
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
@@ -159,6 +188,60 @@ TEST_CASE("built-in scenes: the landscape has the extremes of a trained capture"
   CHECK(summary.median_opacity > 0.6);
 }
 
+// Bounds are around what trained files of this kind hold: logarithms of scales, opacities, voxels.
+TEST_CASE("built-in scenes: the capture is spread as training spreads, in COLMAP's unit") {
+  for (const std::size_t count : {30'000u, 120'000u}) {
+    CAPTURE(count);
+    const BuiltinScene scene = make_builtin_scene("builtin:capture?n=" + std::to_string(count));
+    const GaussianCloud& cloud = scene.cloud;
+    std::vector<double> largest, opacities, aspects, flatness;
+    std::set<std::array<int, 3>> voxels;
+    std::size_t near = 0, on_screen = 0;
+    const Camera& camera = scene.cameras.front();
+    for (std::size_t i = 0; i < count; ++i) {
+      glm::vec3 logs = cloud.log_scales[i];
+      std::sort(&logs[0], &logs[0] + 3);
+      largest.push_back(logs[2]);
+      aspects.push_back(logs[2] - logs[1]);
+      flatness.push_back(logs[1] - logs[0]);
+      opacities.push_back(1 / (1 + std::exp(-cloud.opacity_logits[i])));
+      const glm::dvec3 mean(cloud.means[i]);
+      const glm::dvec3 cell = glm::floor(mean / 2.0);
+      voxels.insert({static_cast<int>(cell.x), static_cast<int>(cell.y), static_cast<int>(cell.z)});
+      near += glm::length(mean) < 8.0 ? 1 : 0;
+      const glm::dvec3 seen = (mean - camera.position) * camera.world_from_camera;
+      on_screen += seen.z > 0 && std::abs(seen.x) * camera.focal_x < 490 * seen.z &&
+                           std::abs(seen.y) * camera.focal_y < 272 * seen.z
+                       ? 1
+                       : 0;
+    }
+    const auto check = [](const char* what, double value, double least, double most) {
+      INFO(what << ": got " << value << ", expected " << least << " to " << most);
+      CHECK(value >= least);
+      CHECK(value <= most);
+    };
+    const auto share = [count](std::size_t of) {
+      return static_cast<double>(of) / static_cast<double>(count);
+    };
+    const auto below = [&](double opacity) {
+      return share(static_cast<std::size_t>(std::count_if(opacities.begin(), opacities.end(),
+                                                          [=](double o) { return o < opacity; })));
+    };
+    check("deviation of the largest scale's logarithm", deviation(largest), 0.8, 1.2);
+    check("largest over middle scale, median logarithm", median(aspects), 0.7, 1.3);
+    check("middle over smallest scale, median logarithm", median(flatness), 1.2, 2.2);
+    check("median opacity", median(opacities), 0.06, 0.3);
+    check("opacity below 1/255", below(1.0 / 255), 0.05, 0.15);
+    check("opacity above 0.8", 1 - below(0.8), 0.05, 0.3);
+    check("voxels of 2", static_cast<double>(voxels.size()), 500, 3000);
+    check("within 8 units", share(near), 0.1, 0.4);
+    check("on the screen of a camera", share(on_screen), 0.15, 0.3);
+    for (const Camera& each : scene.cameras)
+      check("way of a camera from the rocket",
+            glm::length(glm::dvec2(each.position.x, each.position.z)), 3.5, 4.5);
+  }
+}
+
 TEST_CASE("built-in scenes: what a spec may not say") {
   CHECK(is_builtin_scene("builtin:object"));
   CHECK(is_builtin_scene("builtin:nonsense"));
@@ -169,7 +252,8 @@ TEST_CASE("built-in scenes: what a spec may not say") {
     return test::input_error_of([&] { make_builtin_scene(spec); });
   };
   for (const char* spec : {"builtin:teapot", "builtin:", "builtin:?n=5", "object", ""}) {
-    CHECK_THAT(refusal(spec), Contains("xpected one of builtin:object builtin:outdoor"));
+    CHECK_THAT(refusal(spec),
+               Contains("xpected one of builtin:capture builtin:object builtin:outdoor"));
   }
   for (const char* query : {"", "n", "n=", "n=0", "n=-1", "n=20000001", "n=1e5", "n=5 ", "n=5&n=6",
                             "m=5", "N=5", "n=99999999999999999999999"}) {

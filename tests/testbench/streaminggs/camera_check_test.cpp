@@ -55,7 +55,8 @@ TEST_CASE("camera check: a share is that of the centres before the camera and wi
 }
 
 TEST_CASE("camera check: a scene's own cameras pass") {
-  for (const char* spec : {"builtin:object?n=5000", "builtin:outdoor?n=5000"}) {
+  for (const char* spec :
+       {"builtin:capture?n=5000", "builtin:object?n=5000", "builtin:outdoor?n=5000"}) {
     const BuiltinScene scene = make_builtin_scene(spec);
     const ActivatedCloud cloud = activate(scene.cloud);
     for (const Camera& camera : scene.cameras) {
