@@ -19,6 +19,7 @@ from studies.error_against_time import ERROR_AGAINST_TIME
 from studies.fitting import BOUNDARY_STUDY, TRAINING_CURVES
 from studies.found import FAIR_FIGHT, PRESETS
 from studies.frame_costs import BINDING_CHECK, ENERGY, TIMING
+from studies.matched import MATCHED_SCENES
 from studies.published import PAPER_CLAIMS, PUBLISHED_FIGURES
 from studies.reproduction import REPRODUCTION
 from studies.quality import QUALITY_TABLE, VOXEL_STUDY
@@ -86,6 +87,7 @@ class WithTheCommand(InFolder):
                 {"| cores | sum(cycles) | sum(dram_bytes) | sram_bytes | mm2 |": 1, "\n| 1 |": 1},
             ),
             (PAPER_CLAIMS, ("--size", "64x36"), {"| area, mm2 | 5.37 |": 1, "| claim |": 1}),
+            (MATCHED_SCENES, ("--size", "64x36"), {"| GSCore, frames/s | 106 | 79.5 | 132.5 |": 1}),
             (
                 REPRODUCTION,
                 ("--size", "64x36", "--groups", "32", "--channels", "4"),

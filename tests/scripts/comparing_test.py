@@ -15,7 +15,7 @@ import results
 import tables
 from runs.files import content_digest
 from runs.scenes import Scene
-from studies import compare_machines, frame_costs, headline, reproduction
+from studies import compare_machines, frame_costs, headline, matched, reproduction
 from studies.cases import (
     GPU,
     Case,
@@ -445,6 +445,24 @@ class Reproduction(unittest.TestCase):
             reproduction.settings_by_part(
                 {"storage": {"encoding": "vq"}}, {"storage": {"encoding": "raw"}}
             )
+
+    def test_a_statistic_matches_between_its_bounds(self):
+        work = {"listed": 30, "gaussians": 100, "pairs": 150, "tiles": 10, "pixels": 1000}
+        gpu = [{"work": work | {"entries_fetched": 80, "blends": 5000}}]
+        found = matched.Found(gpu, (), [{"scene": {"voxels": 3000}}])
+        by_name = {of.name: of for of in matched.STATISTICS}
+        for name, measured in {
+            "Gaussians on the screen, %": 30,
+            "tiles of a Gaussian on the screen": 5,
+            "Gaussians of a tile": 15,
+            "Gaussians of a tile until it is finished": 8,
+            "blends of a pixel": 5,
+        }.items():
+            self.assertEqual(by_name[name].measured(found), measured)
+            self.assertEqual(by_name[name].matches(found), "")
+        voxels = by_name["voxels of 2 with a Gaussian"]
+        self.assertEqual(voxels.matches(found), "yes")
+        self.assertEqual(voxels.matches(matched.Found(gpu, (), [{"scene": {"voxels": 3001}}])), "no")
 
 
 if __name__ == "__main__":
