@@ -459,10 +459,10 @@ class Reproduction(unittest.TestCase):
             "blends of a pixel": 5,
         }.items():
             self.assertEqual(by_name[name].measured(found), measured)
-            self.assertEqual(by_name[name].matches(found), "")
+            self.assertIsNone(by_name[name].row("scene", measured)[-1])
         voxels = by_name["voxels of 2 with a Gaussian"]
-        self.assertEqual(voxels.matches(found), "yes")
-        self.assertEqual(voxels.matches(matched.Found(gpu, (), [{"scene": {"voxels": 3001}}])), "no")
+        self.assertEqual(voxels.measured(found), 3000)
+        self.assertEqual([voxels.row("", n)[-1] for n in (499, 500, 3000, 3001)], [0, 1, 1, 0])
 
 
 if __name__ == "__main__":
