@@ -6,6 +6,8 @@ module beside_lanes (
     output less,
     output less_or_equal,
     output [31:0] value,
+    output less_word,
+    output equal_word,
     input [1:0] to,
     output [31:0] whole,
     output [31:0] reciprocal,
@@ -18,6 +20,10 @@ module beside_lanes (
     output [31:0] linear,
     output [31:0] square,
     input [15:0] half,
+    input [15:0] other_half,
+    output less_half,
+    output less_or_equal_half,
+    output [15:0] value_half,
     output [15:0] rest_half,
     output [7:0] exponent_half,
     output [15:0] constant_half,
@@ -32,6 +38,24 @@ module beside_lanes (
       .less(less),
       .less_or_equal(less_or_equal),
       .value(value)
+  );
+  word_comparator words (
+      .a(a),
+      .b(b),
+      .less(less_word),
+      .equal(equal_word)
+  );
+  comparator #(
+      .EXPONENT_BITS(5),
+      .FRACTION_BITS(10),
+      .HAS(6'b000011)
+  ) compare_halves (
+      .operation(operation),
+      .a(half),
+      .b(other_half),
+      .less(less_half),
+      .less_or_equal(less_or_equal_half),
+      .value(value_half)
   );
   rounding round (
       .to(to),

@@ -40,6 +40,13 @@ class Parts {
     module_->eval();
     return *module_;
   }
+  const Vbeside_lanes& of_halves(Of operation, std::uint16_t a, std::uint16_t b) {
+    module_->operation = operation;
+    module_->half = a;
+    module_->other_half = b;
+    module_->eval();
+    return *module_;
+  }
   const Vbeside_lanes& now() const { return *module_; }
 
  private:
@@ -54,10 +61,19 @@ bool compares(Parts& parts, float a, float b) {
          most == bits_of(max_of(a, b));
 }
 
+bool compares_halves(Parts& parts, std::uint16_t a, std::uint16_t b) {
+  const float x = half_of(a), y = half_of(b);
+  const std::uint16_t most = parts.of_halves(kMaximum, a, b).value_half;
+  const Vbeside_lanes& got = parts.of_halves(kMinimum, a, b);
+  return got.less_half == (x < y) && got.less_or_equal_half == (x <= y) &&
+         got.value_half == (y < x ? b : a) && most == (x < y ? b : a);
+}
+
 bool counts(Parts& parts, std::uint32_t a, std::uint32_t b) {
   const std::uint32_t places = b % 32;
   const auto zeros = a == 0 ? 31U : static_cast<std::uint32_t>(__builtin_clz(a));
-  return parts.compared(kAdd, a, b) == a + b && parts.compared(kLeft, a, places) == a << places &&
+  return parts.compared(kAdd, a, b) == a + b && parts.now().less_word == (a < b) &&
+         parts.now().equal_word == (a == b) && parts.compared(kLeft, a, places) == a << places &&
          parts.compared(kRight, a, places) == a >> places && parts.compared(kZeros, a, 0) == zeros;
 }
 
@@ -118,6 +134,20 @@ TEST_CASE("comparator and rounding: special numbers with each other") {
         CHECK(rounds(parts, x));
       }
     }
+  }
+}
+
+TEST_CASE("comparator of halves: halves of all kinds with each other") {
+  Parts parts;
+  const auto check = [&](std::uint32_t a, std::uint32_t b) {
+    if (!compares_halves(parts, static_cast<std::uint16_t>(a), static_cast<std::uint16_t>(b))) {
+      FAIL(half_of(static_cast<std::uint16_t>(a))
+           << ", " << half_of(static_cast<std::uint16_t>(b)));
+    }
+  };
+  for (std::uint32_t a = 0; a < 0x10000; a += 0x55) {
+    for (std::uint32_t b = 0; b < 0x10000; b += 0x200) check(a, b);
+    for (const std::uint32_t beside : {a, a ^ 1, a ^ 0x8000}) check(a, beside);
   }
 }
 
