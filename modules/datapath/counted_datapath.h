@@ -4,23 +4,64 @@
 
 #include <cstdint>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "algorithm/memory/number_format.h"
 #include "modules/datapath/folded_pipeline.h"
 #include "tlm/datapath.h"
 
 namespace sgs {
 
-// Single precision, charged with what was counted, one lane until it is said otherwise. Beside the
-// lanes stand comparators, and tables: for what reciprocals, roots and logarithms start from, and
-// for what the code looks up (rows: their kind).
+// Rows of the technology table, for numbers of one format. A lane for quotients and roots adds to
+// the whole product, too.
+struct PartsOfFormat {
+  const char *lane, *quotient_lane;
+  const char *comparator, *split, *scaling, *exp2_rows;
+};
+constexpr PartsOfFormat kSingleParts{"fp32_chaining_lane", "fp32_lane", "number_comparator",
+                                     "exp2_split",         "adder",     "exp2_table"};
+constexpr PartsOfFormat kHalfParts{"fp16_lane",       "fp16_lane",  "half_comparator",
+                                   "exp2_split_half", "half_scale", "exp2_table_half"};
+
+// Steps of a schedule that an operation of a part beside the lanes takes.
+struct StepsOfPart {
+  const char* kind;
+  std::uint32_t comparator, table;
+};
+constexpr StepsOfPart kStepsOfParts[] = {{"number_comparator", 1, 0},
+                                         {"half_comparator", 1, 0},
+                                         {"adder", 1, 0},
+                                         {"half_scale", kScalingComparisons, 0},
+                                         {"conversion", kConversionComparisons, 0},
+                                         {"rounding", kRoundingComparisons, 0},
+                                         {"exp2_split", kSplitComparisons, 0},
+                                         {"exp2_split_half", kSplitComparisons, 0},
+                                         {"seed_table", 0, 1},
+                                         {"logarithm_table", kLogarithmComparisons, 1},
+                                         {"reach_table", 0, 1},
+                                         {"exp2_table", 0, 1},
+                                         {"exp2_table_half", 0, 1}};
+
+inline StepsOfPart steps_of(const std::string& kind) {
+  for (const StepsOfPart& part : kStepsOfParts) {
+    if (part.kind == kind) return part;
+  }
+  throw std::logic_error(kind + ": no part beside lanes");
+}
+
+// Charged with what was counted, one lane until it is said otherwise. Beside the lanes stand parts
+// for what they do not: comparisons, whole numbers, and tables. An exponential compares with both
+// ends of its range.
 inline Datapath counted_datapath(const char* name, const char* component, const OperationCounts& c,
-                                 const char* rows = "small_table") {
+                                 NumberFormat format = NumberFormat::kSingle) {
+  const PartsOfFormat& parts = format == NumberFormat::kHalf ? kHalfParts : kSingleParts;
+  const bool has_quotients = c.divisions + c.square_roots > 0;
   Datapath path;
   path.name = name;
   path.component = component;
-  path.lane = "fp32_lane";
+  path.lane = has_quotients ? parts.quotient_lane : parts.lane;
   path.used_macs = path.counted_macs = folded_macs(c);
   path.counts = {{"multiplies", c.multiplies},
                  {"adds", c.adds},
@@ -38,7 +79,15 @@ inline Datapath counted_datapath(const char* name, const char* component, const 
                  {"index_adds", c.index_adds},
                  {"look_ups", c.look_ups}};
   const std::pair<const char*, std::uint32_t> beside[] = {
-      {"comparator", comparisons(c)}, {"small_table", seeds(c)}, {rows, c.look_ups}};
+      {parts.comparator, c.comparisons + 2 * c.exponentials},
+      {"rounding", c.roundings + c.exponentials},
+      {parts.split, c.splits},
+      {parts.scaling, c.scalings + c.exponentials},
+      {"adder", c.index_adds},
+      {"conversion", c.conversions},
+      {"seed_table", c.divisors + c.square_roots},
+      {"logarithm_table", c.logarithms},
+      {c.splits > 0 ? parts.exp2_rows : "reach_table", c.look_ups}};
   for (const auto& [kind, operations] : beside) {
     if (operations > 0) path.part_of(kind).operations += operations;
   }
@@ -47,16 +96,19 @@ inline Datapath counted_datapath(const char* name, const char* component, const 
 
 constexpr std::uint32_t kSingleBits = 32, kHalfBits = 16;
 
-// The lanes of one copy, what stands beside them, and an item every so many cycles.
+// The lanes of one copy, what keeps pace with them, and an item every so many cycles. A schedule
+// does not tell apart comparators, adders and the like, nor tables.
 inline FoldedParts parts_of(const Datapath& path, std::uint32_t interval_cycles) {
-  FoldedParts parts;
-  parts.lanes = path.lanes;
-  parts.interval_cycles = interval_cycles;
+  std::uint64_t comparators = 0, tables = 0;
   for (const BesideLanes& beside : path.beside) {
-    const auto in_copy = static_cast<std::uint32_t>(path.parts(beside) / path.copies);
-    (beside.kind == "comparator" ? parts.comparators : parts.tables) += in_copy;
+    const StepsOfPart steps = steps_of(beside.kind);
+    comparators += std::uint64_t{beside.operations} * steps.comparator;
+    tables += std::uint64_t{beside.operations} * steps.table;
   }
-  return parts;
+  const auto at_full_rate = [&](std::uint64_t steps) {
+    return static_cast<std::uint32_t>((steps * path.lanes + path.used_macs - 1) / path.used_macs);
+  };
+  return {path.lanes, at_full_rate(comparators), at_full_rate(tables), interval_cycles};
 }
 
 inline BetweenLanes between_lanes(const LaneWiring& wiring, std::uint32_t value_bits) {

@@ -29,15 +29,15 @@ Datapath counted(const char* name, const char* component, const FlowPart& flow, 
 }
 
 // An opacity that lies in two places is counted from the least one on, and back.
-std::uint32_t opacity_comparisons(const GscoreConfig& config) {
-  return config.tiles.features == NumberFormat::kHalf ? 0 : kScalingComparisons;
+void count_opacity(Datapath& path, const GscoreConfig& config) {
+  if (config.tiles.features == NumberFormat::kSingle) ++path.part_of("adder").operations;
 }
 
 Datapath convert_of_degree(const GscoreConfig& config, int sh_degree) {
   const FlowPart flow =
       convert_flow(config.tiles.rules(), sh_degree, config.tiles.features == NumberFormat::kHalf);
   Datapath path = counted("convert", "ccu", flow, config.ccu.convert_lanes, config.single());
-  path.part_of("comparator").operations += opacity_comparisons(config);
+  count_opacity(path, config);
   return path;
 }
 
@@ -104,10 +104,10 @@ std::optional<Datapath> conic_pipeline(const GscoreConfig& config) {
       of_halves ? terms_of_square_flow() : rendering_flows(config.rendering.precision).conic;
   Datapath path = counted_datapath("conic", "rendering", flow.counts());
   if (of_halves) {
-    path.part_of("comparator").operations +=
-        kHalves * kConversionComparisons + kOfConic * kScalingComparisons;
+    path.part_of("conversion").operations += kHalves;
+    path.part_of("adder").operations += kOfConic;
   }
-  path.part_of("comparator").operations += opacity_comparisons(config);
+  count_opacity(path, config);
   const int across = kSubtilesPerTile / config.tiles.subtiles_across;
   const std::uint64_t turn = static_cast<std::uint64_t>(across * across) * blend_interval(config);
   path.lanes = static_cast<std::uint32_t>(cycles_for(path.used_macs, turn));
@@ -119,7 +119,7 @@ std::optional<Datapath> conic_pipeline(const GscoreConfig& config) {
 Datapath corner_pipeline(const GscoreConfig& config) {
   const FlowPart flow = rendering_flows(BlendPrecision::kSingle).corner;
   Datapath path = counted_datapath("corner", "rendering", flow.counts());
-  path.part_of("comparator").operations += 2 * kConversionComparisons;
+  path.part_of("conversion").operations += 2;
   path.lanes = static_cast<std::uint32_t>(cycles_for(path.used_macs, blend_interval(config)));
   schedule(path, flow.steps(config.single()), config.single());
   return path;
@@ -129,8 +129,7 @@ Datapath blend_pipeline(const GscoreConfig& config) {
   const bool in_half = in_16_bits(config.rendering.precision);
   const FlowPart flow = blend_flow(config);
   Datapath path = counted_datapath("blend", "rendering", flow.counts(),
-                                   in_half ? "exp2_table_half" : "exp2_table");
-  if (in_half) path.lane = "fp16_lane";
+                                   in_half ? NumberFormat::kHalf : NumberFormat::kSingle);
   path.lanes = config.rendering.core_lanes > 0 ? config.rendering.core_lanes : path.used_macs;
   schedule(path, flow.steps(config.blending()), config.blending(),
            in_half ? kHalfBits : kSingleBits);
@@ -143,7 +142,7 @@ Datapath drain_pipeline(const GscoreConfig& config) {
   Datapath path = counted_datapath("drain", "rendering", flow.counts());
   constexpr std::uint32_t kOfPixel = 4;
   if (in_16_bits(config.rendering.precision)) {
-    path.part_of("comparator").operations += kOfPixel * kConversionComparisons;
+    path.part_of("conversion").operations += kOfPixel;
   }
   path.lanes = path.used_macs;
   path.copies = config.rendering.drain_pixels_per_cycle;

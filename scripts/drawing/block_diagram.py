@@ -153,7 +153,7 @@ def lanes_line(block: Block, datapaths: Rows) -> str:
     counts = [int(lanes[name][0]) for name in block.datapaths]
     if not counts:
         return block.does
-    kind = lanes[block.datapaths[0]][1].removesuffix("_lane")
+    kind = lanes[block.datapaths[0]][1].removesuffix("_lane").removesuffix("_chaining")
     more = f" + {sum(counts[1:])}" if counts[1:] else ""
     return f"{block.does}: {counts[0]}{more} lanes, {kind}"
 

@@ -11,11 +11,19 @@ import pathlib
 import re
 import statistics
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import tables
-from runs import run_arguments
-from runs.scenes import BINARY, REPOSITORY, Failure, answered, program_provenance, shared_folder
+from runs import run_arguments, simulations
+from runs.scenes import (
+    BINARY,
+    REPOSITORY,
+    Failure,
+    answered,
+    find_scene,
+    program_provenance,
+    shared_folder,
+)
 from studies.gates import DELAY, NODE_NM, Library, ran, read_library, switched
 from tables import Column, Study
 
@@ -132,7 +140,11 @@ every place of every sweep.
 )
 
 
-VERILOG = REPOSITORY / "modules" / "datapath" / "rtl"
+VERILOG = [
+    source
+    for folder in ("modules/datapath/rtl", "modules/streaminggs/rendering/rtl")
+    for source in sorted((REPOSITORY / folder).glob("*.v"))
+]
 TECHNOLOGY = REPOSITORY / "testbench" / "cost" / "technology_32nm.json"
 OSU018 = pathlib.Path("/usr/share/qflow/tech/osu018/osu018_stdcells.lib")
 
@@ -144,6 +156,7 @@ REGISTER_FO4 = 5
 # NAND2_X1 of NanGate's open library at 45 nm. The part of the area that cells fill is the ledger's.
 NAND2_UM2 = 0.798 * (NODE_NM / 45) ** 2
 FILLED = {"low": 1.0, "middle": 0.75, "high": 0.65}
+SMALL_SCENE = "builtin:object?n=500"  # datapaths are the machine's, whatever it renders
 # Mappers' scripts. The large one of Yosys saves area; the other one time, then area that is left.
 SMALL = (
     "strash; ifraig; scorr; dc2; dretime; strash; &get -n; &nf; &put; buffer -c; topo; upsize; "
@@ -153,50 +166,119 @@ FAST = "strash; ifraig; scorr; dch -f; map -B 0.9; topo; buffer -c; topo; upsize
 MAPPINGS = {"small": SMALL, "fast": FAST}
 
 
+Parts = tuple[tuple[str, float], ...]  # kinds and how many
+
+
 @dataclasses.dataclass(frozen=True)
 class Module:
-    """top, parameters: in Verilog. charged: so many of a part of the ledger."""
+    """top, parameters: in Verilog. charged: parts of the ledger, or the datapath of `exact` that
+    has them beside so many lanes. published: what published constants have for it. apart: modules
+    in it that are counted by themselves. interval: cycles that its input `phase` counts."""
 
     name: str
     top: str
-    charged: str
-    times: int = 1
+    charged: Parts | str
+    published: Parts = ()
     parameters: tuple[str, ...] = ()
+    apart: tuple[str, ...] = ()
+    lanes: int = 0
+    interval: int = 1
 
 
-HALF = tuple(
-    f"{name} {value}"
-    for name, value in (
-        ("EXPONENT_BITS", 5),
-        ("FRACTION_BITS", 10),
-        ("UNROUNDED", 0),
-        ("SIGNED_ZERO", 0),
-        ("REGISTERS", 0),
-    )
-)
+def one(kind: str) -> Parts:
+    return ((kind, 1),)
+
+
+def parameters(**values: int) -> tuple[str, ...]:
+    return tuple(f"{name} {value}" for name, value in values.items())
+
+
+HALF = parameters(EXPONENT_BITS=5, FRACTION_BITS=10)
+COMPARES = parameters(HAS=3)
+LANE, CHAINS = one("fp32_lane"), one("fp32_chaining_lane")
+LANES = ("lane", "fp32_lane")
+# The part whose energy is published: a multiplier and an adder. All others are so much of it.
+OF_KNOWN_ENERGY = "fp32 lane that only chains"
 MODULES = (
-    Module("fp32 lane", "fp32_lane", "fp32_lane"),
-    Module("fp32 lane that only chains", "lane", "fp32_lane", 1, ("UNROUNDED 0",)),
-    Module("fp32 lane without registers", "lane", "fp32_lane", 1, ("REGISTERS 0",)),
-    Module("fp16 lane", "fp16_lane", "fp16_lane"),
-    Module("fp16 lane without registers", "lane", "fp16_lane", 1, HALF),
-    Module("comparator", "comparator", "comparator"),
-    Module("comparator that compares and selects", "comparator", "comparator", 1, ("HAS 3",)),
-    Module("comparator that adds", "comparator", "comparator", 1, ("HAS 4",)),
-    Module("comparator that shifts", "comparator", "comparator", 1, ("HAS 24",)),
-    Module("rounding", "rounding", "comparator", 3),
-    Module("split of 2^t", "exp2_split", "comparator", 4),
-    Module("scaling in half", "half_scale", "comparator"),
-    Module("split of 2^t, half", "exp2_split", "comparator", 4, HALF[:2]),
-    Module("table of 2^t", "exp2_table", "exp2_table"),
-    Module("table of 2^t, half", "exp2_table_half", "exp2_table_half"),
-    Module("seed of a reciprocal", "reciprocal_seed", "small_table"),
-    Module("seed of a root", "root_seed", "small_table"),
-    Module("root of a reach", "reach_table", "small_table"),
-    Module("32 register bits", "stage", "register_bit", 32, ("WIDTH 32",)),
+    Module("fp32 lane", "fp32_lane", LANE, LANE),
+    Module(OF_KNOWN_ENERGY, "lane", CHAINS, LANE, parameters(UNROUNDED=0)),
+    Module("fp16 lane", "fp16_lane", one("fp16_lane"), one("fp16_lane")),
+    Module("comparator of words", "word_comparator", one("comparator"), one("comparator")),
+    Module(
+        "comparator of numbers",
+        "comparator",
+        one("number_comparator"),
+        one("comparator"),
+        COMPARES,
+    ),
+    Module(
+        "comparator of halves",
+        "comparator",
+        one("half_comparator"),
+        one("comparator"),
+        (*HALF, *COMPARES),
+    ),
+    Module("adder", "comparator", one("adder"), one("comparator"), parameters(HAS=4)),
+    Module("whole number to float", "whole_number", one("conversion"), (("comparator", 2),)),
+    Module("rounding", "rounding", one("rounding"), (("comparator", 3),)),
+    Module("split of 2^t", "exp2_split", one("exp2_split"), (("comparator", 4),)),
+    Module("split of 2^t, half", "exp2_split", one("exp2_split_half"), (("comparator", 4),), HALF),
+    Module("scaling in half", "half_scale", one("half_scale"), one("comparator")),
+    Module("table of 2^t", "exp2_table", one("exp2_table"), one("exp2_table")),
+    Module("table of 2^t, half", "exp2_table_half", one("exp2_table_half"), one("exp2_table_half")),
+    Module("seed of a root", "root_seed", one("seed_table"), one("small_table")),
+    Module("seed of a reciprocal", "reciprocal_seed", one("seed_table"), one("small_table")),
+    Module(
+        "logarithm's table",
+        "logarithm_split",
+        one("logarithm_table"),
+        (("small_table", 1), ("comparator", 1)),
+    ),
+    Module("root of a reach", "reach_table", one("reach_table"), one("small_table")),
+    Module(
+        "32 register bits",
+        "stage",
+        (("register_bit", 32),),
+        (("register_bit", 32),),
+        parameters(WIDTH=32),
+    ),
+    # Of the rendering cluster: its lanes have rows of their own.
+    Module("a comparison alone", "less_or_equal", one("number_comparator"), one("comparator")),
+    Module("column of a sub-tile", "subtile_column", ()),
+    Module("line above a row", "row_line", ()),
+    Module(
+        "farther edge of a row",
+        "row_edge",
+        (("number_comparator", 2), ("register_bit", 32), ("select_bit", 32)),
+    ),
+    Module(
+        "pixel of a blend, 4 lanes apart",
+        "pixel_blend",
+        "subtile_blend",
+        apart=LANES,
+        lanes=4,
+        interval=3,
+    ),
+    Module(
+        "blend of a sub-tile, 16 pixels apart",
+        "subtile_blend",
+        (),
+        apart=("pixel_blend",),
+        interval=3,
+    ),
+    Module(
+        "span of a row, 10 lanes apart",
+        "row_span",
+        "row_span",
+        apart=LANES,
+        lanes=10,
+        interval=2,
+    ),
+    Module("dispatcher", "dispatcher", (("adder", 4),)),
+    Module("draining of a group", "drain", ()),
 )
 
-MODULE = Column("module", "in modules/datapath/rtl")
+MODULE = Column("module", "in modules/datapath/rtl or modules/streaminggs/rendering/rtl")
 SYNTHESIS_COLUMNS = (
     Column("library", "file of its cells"),
     MODULE,
@@ -208,7 +290,13 @@ SYNTHESIS_COLUMNS = (
     Column("pJ, settled", "a cycle of random operands, gates that take no time", "pJ", ".3g"),
     Column("pJ, with glitches", "the same, gates that take the same time", "pJ", ".3g"),
 )
-CHARGED = ("low", "middle", "high")
+BAND = ("low", "middle", "high")
+
+
+def bands(name: str, meaning: str, unit: str, form: str) -> tuple[Column, ...]:
+    return tuple(Column(f"{name}, {of}", meaning, unit, form) for of in BAND)
+
+
 NODE_COLUMNS = (
     MODULE,
     Column("register bits", "flip-flops", "", ",d"),
@@ -218,22 +306,29 @@ NODE_COLUMNS = (
     Column("FO4, most", "likewise", "", ".0f"),
     Column("ns, least", "that and a register at 32 nm: least depth, typical", "ns", ".2f"),
     Column("ns, most", "most depth, slow", "ns", ".2f"),
-    *(Column(f"um2, {of}", "at 32 nm, as the gates say", "um2", ",.0f") for of in CHARGED),
+    *bands("um2", "at 32 nm, as the gates say", "um2", ",.0f"),
     Column("charged as", "parts of the ledger"),
-    *(Column(f"charged, {of}", "at 32 nm", "um2", ",.0f") for of in CHARGED),
+    Column("charged um2", "their middle", "um2", ",.0f"),
+    Column("published as", "parts with published constants"),
+    *bands("published um2", "at 32 nm", "um2", ",.0f"),
     Column("pJ, settled, least", "at 32 nm, of all libraries", "pJ", ".3g"),
     Column("pJ, settled, most", "likewise", "pJ", ".3g"),
     Column("pJ, with glitches, least", "likewise", "pJ", ".3g"),
     Column("pJ, with glitches, most", "likewise", "pJ", ".3g"),
-    *(Column(f"charged pJ, {of}", "at 32 nm", "pJ", ".3g") for of in CHARGED),
+    *bands("pJ", "as so much of the published energy of a lane that chains", "pJ", ".3g"),
+    Column("charged pJ", "middle of a cycle with work for all", "pJ", ".3g"),
+    *bands("published pJ", "at 32 nm", "pJ", ".3g"),
 )
 NODE_ABOUT = (
     "Area at 32 nm: NAND2 equivalents by 0.40 um2, a NAND2 of NanGate's 45 nm library x (32/45)^2. "
     "Low: the least number, cells alone. High: the most, at 65 % of the area they stand in. "
     "Middle: the geometric mean of all, at 75 %. "
     "A FO4 at 32 nm is 11.5 ps, slow 16 ps; a register takes 5. "
-    "Energy: the library's x 32 nm over its gates' length x the square of 0.9 V over its voltage. "
-    "Operands are new and random in every cycle. No wires, no layout, no clock."
+    "Energy, settled and with glitches: the library's x 32 nm over its gates' length x the square "
+    "of 0.9 V over its voltage. Operands are new and random in every cycle. No wires, no layout, "
+    "no clock. pJ, low to high: the published energy of a multiplication and an addition times "
+    "what the module takes, settled, over what the lane that only chains takes in the same "
+    "library. Low: the least. Middle: the geometric mean. High: the most."
 )
 
 
@@ -257,12 +352,16 @@ class Mapped:
 
 
 def in_gates(module: Module, folder: pathlib.Path) -> pathlib.Path:
-    """Its logic in gates of no library. Raises ValueError, Failure."""
-    sources = " ".join(str(path) for path in sorted(VERILOG.glob("*.v")))
-    parameters = "".join(f"chparam -set {p} {module.top}; " for p in module.parameters)
-    gates = folder / f"{module.name.replace(' ', '_').replace('^', '')}.il"
-    steps = f"synth -flatten -top {module.top}; dfflegalize -cell $_DFF_P_ x; write_rtlil {gates}"
-    ran(["yosys", "-p", f"read_verilog {sources}; {parameters}{steps}"])
+    """Its logic in gates of no library; what is counted apart is beyond its ports. Raises
+    ValueError, Failure."""
+    sources = " ".join(map(str, VERILOG))
+    set_all = "".join(f"chparam -set {p} {module.top}; " for p in module.parameters)
+    black = f"blackbox {' '.join(module.apart)}; " if module.apart else ""
+    beyond = "".join(f"expose -evert t:{name}; " for name in module.apart)
+    gates = folder / f"{re.sub(r'[^a-z0-9]+', '_', module.name)}.il"
+    synthesised = f"synth -flatten -top {module.top}; dfflegalize -cell $_DFF_P_ x; {beyond}"
+    steps = f"{set_all}{black}{synthesised}clean; write_rtlil {gates}"
+    ran(["yosys", "-p", f"read_verilog {sources}; {steps}"])
     return gates
 
 
@@ -283,7 +382,7 @@ def mapped_to(
     logic = re.findall(r"Chip area for module .*: ([\d.]+)", counted)
     um2 = (float(logic[-1]) if logic else 0.0) + registers * library.register_um2
     fo4 = float(delays[-1]) / library.fo4_ps if delays else 0.0
-    pj = switched(library, json.loads(netlist.read_text())["modules"])
+    pj = switched(library, json.loads(netlist.read_text())["modules"], module.interval)
     return Mapped(
         library.name,
         module,
@@ -297,21 +396,90 @@ def mapped_to(
     )
 
 
-def charged(module: Module, unit: str) -> list[float]:
-    """mm2 or pj in the ledger: low, middle, high."""
-    constant = json.loads(TECHNOLOGY.read_text())["parts"][module.charged][unit]
-    return [constant[of] * module.times for of in CHARGED]
+def priced(parts: Parts, of: str, unit: str) -> list[float]:
+    """mm2 or pJ in the ledger's table, low, middle, high. of: `parts`, `published`."""
+    rows = json.loads(TECHNOLOGY.read_text())[of]
+    return [sum(rows[kind][unit][end] * times for kind, times in parts) for end in BAND]
 
 
-def node_row(module: Module, mapped: Sequence[Mapped]) -> tuple:
-    """Beside the ledger. mapped: of this module."""
+def beside_lanes(datapath: dict, lanes: int) -> tuple[Parts, Parts]:
+    """What stands beside so many lanes of a datapath of a report, and what it does in a cycle."""
+    kinds = datapath["beside"].items()
+    of_all, of_item = lanes / datapath["lanes"], lanes / datapath["used"]["macs"]
+    return (
+        tuple((kind, of["parts"] * of_all) for kind, of in kinds),
+        tuple((kind, of["operations"] * of_item) for kind, of in kinds),
+    )
+
+
+def charged_as(module: Module, datapaths: Mapping[str, dict]) -> tuple[Parts, Parts]:
+    """Parts of the ledger, and their operations in a cycle. datapaths: of a report."""
+    if isinstance(module.charged, str):
+        return beside_lanes(datapaths[module.charged], module.lanes)
+    return module.charged, module.charged
+
+
+def pj_of_gates(mapped: Sequence[Mapped], known: Sequence[Mapped]) -> list[float | None]:
+    """Low, middle, high; none without the module of known energy."""
+    if not known:
+        return [None] * len(BAND)
+    settled = {(each.library, each.mapping): each.pj[0] for each in known}
+    over = [each.pj[0] / settled[each.library, each.mapping] for each in mapped]
+    published = priced(one("fp32_lane"), "published", "pj")
+    of_known = (min(over), statistics.geometric_mean(over), max(over))
+    return [of * pj for of, pj in zip(of_known, published)]
+
+
+def um2_of_gates(mapped: Sequence[Mapped]) -> list[float]:
+    """Low, middle, high."""
+    nand2 = [each.nand2 for each in mapped]
+    count = {"low": min(nand2), "middle": statistics.geometric_mean(nand2), "high": max(nand2)}
+    return [count[of] * NAND2_UM2 / FILLED[of] for of in BAND]
+
+
+def constants(mapped: Sequence[Mapped]) -> dict[str, dict[str, dict[str, float]]]:
+    """Of the ledger, what gates say: mm2 and pj, low, middle, high, of each part that a module is
+    charged as; of several such modules the first."""
+    known = [each for each in mapped if each.module.name == OF_KNOWN_ENERGY]
+    found: dict[str, dict[str, dict[str, float]]] = {}
+    for module in dict.fromkeys(each.module for each in mapped):
+        if isinstance(module.charged, str) or len(module.charged) != 1:
+            continue
+        ((kind, times),) = module.charged
+        of_module = [each for each in mapped if each.module == module]
+        mm2 = [um2 / times * 1e-6 for um2 in um2_of_gates(of_module)]
+        pj = [energy / times for energy in pj_of_gates(of_module, known)]
+        found.setdefault(kind, {"mm2": dict(zip(BAND, mm2)), "pj": dict(zip(BAND, pj))})
+    return found
+
+
+def in_words(parts: Parts) -> str:
+    return ", ".join(
+        f"{times:,.{0 if times >= 10 or times == int(times) else 2}f} {kind}"
+        for kind, times in parts
+    )
+
+
+def node_row(
+    module: Module,
+    mapped: Sequence[Mapped],
+    known: Sequence[Mapped],
+    charged: tuple[Parts, Parts],
+) -> tuple:
+    """Beside the ledger. mapped, known: of this module, of the one of known energy. charged: parts,
+    and their operations in a cycle."""
     nand2 = [each.nand2 for each in mapped]
     depth = [each.fo4 for each in mapped if each.mapping == "fast"]
     times = [
         (fo4 + REGISTER_FO4) * ps_nm * NODE_NM / 1e3
         for fo4, ps_nm in zip((min(depth), max(depth)), FO4_PS_NM)
     ]
-    count = {"low": min(nand2), "middle": statistics.geometric_mean(nand2), "high": max(nand2)}
+    parts, operations = charged
+
+    def published(unit: str, factor: float) -> list[float | None]:
+        prices = priced(module.published, "published", unit)
+        return [price * factor for price in prices] if module.published else [None] * len(BAND)
+
     return (
         module.name,
         mapped[0].register_bits,
@@ -320,11 +488,15 @@ def node_row(module: Module, mapped: Sequence[Mapped]) -> tuple:
         min(depth),
         max(depth),
         *times,
-        *(count[of] * NAND2_UM2 / FILLED[of] for of in CHARGED),
-        f"{module.times} x {module.charged}",
-        *(mm2 * 1e6 for mm2 in charged(module, "mm2")),
+        *um2_of_gates(mapped),
+        in_words(parts),
+        priced(parts, "parts", "mm2")[1] * 1e6,
+        in_words(module.published),
+        *published("mm2", 1e6),
         *(of(each.node_pj[at] for each in mapped) for at in (0, 1) for of in (min, max)),
-        *charged(module, "pj"),
+        *pj_of_gates(mapped, known),
+        priced(operations, "parts", "pj")[1],
+        *published("pj", 1),
     )
 
 
@@ -366,9 +538,17 @@ def make_synthesis(arguments: argparse.Namespace) -> None:
         ):
             mapped.append(mapped_to(library, module, gates, mapping, folder))
     program = arguments.streaminggs
-    by = tables.made(program, [program_provenance(program)], [VERILOG, *paths])
+    by = tables.made(program, [program_provenance(program)], [*VERILOG, *paths])
     tables.write(arguments.out, "synthesis", by, SYNTHESIS_COLUMNS, [each.row() for each in mapped])
-    rows = [node_row(module, [m for m in mapped if m.module == module]) for module in chosen]
+    run = simulations.Run(find_scene(SMALL_SCENE), config="exact")
+    datapaths = simulations.simulate(program, run).accepted()[0]["datapath"]
+    known = [m for m in mapped if m.module.name == OF_KNOWN_ENERGY]
+    rows = [
+        node_row(
+            module, [m for m in mapped if m.module == module], known, charged_as(module, datapaths)
+        )
+        for module in chosen
+    ]
     tables.write(arguments.out, "synthesis_32nm", by, NODE_COLUMNS, rows, NODE_ABOUT)
 
 

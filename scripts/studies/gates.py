@@ -1,10 +1,11 @@
 """Libraries of cells, and the energy of netlists of their cells: how often nets switch under random
-operands, in all cycles at once (the bits of a Python integer are cycles), and what the library says
-of a change."""
+operands, in many runs at once (the bits of a Python integer are runs), and what the library says of
+a change."""
 
 from __future__ import annotations
 
 import dataclasses
+import graphlib
 import gzip
 import pathlib
 import random
@@ -12,6 +13,7 @@ import re
 import shutil
 import statistics
 import subprocess
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from runs.scenes import Failure
@@ -111,70 +113,69 @@ class Netlist:
     registers: Mapping[Bit, Bit]  # by output: input
     register: Cell
     load_pf: Mapping[Bit, float]
+    fed: Mapping[Bit, Sequence[Gate]]  # by what drives them
 
-    def values(self, inputs: Mapping[Bit, int], cycles: int) -> Values:
-        """Of all nets, settled in each cycle. Registers begin with 0."""
-        every = (1 << cycles) - 1
-        values: Values = {"0": 0, "1": every, "x": 0, **inputs}
-        drivers = {gate.output: gate for gate in self.gates}
-        # Without loops: each register is reached from the inputs.
-        wanted = [*self.registers.values(), *drivers]
-        while wanted:
-            bit = wanted[-1]
-            if bit in values:
-                wanted.pop()
-                continue
-            gate = drivers.get(bit)
-            sources = list(gate.inputs.values()) if gate else [self.registers[bit]]
-            missing = [source for source in sources if source not in values]
-            if missing:
-                wanted += missing
-            elif gate:
-                of = {pin: values[source] for pin, source in gate.inputs.items()}
-                values[bit] = gate.cell.function(of) & every
-            else:
-                values[bit] = values[sources[0]] << 1 & every
-        for output, source in self.registers.items():
-            values[output] = values[source] << 1 & every
+    def settled(self, sources: Mapping[Bit, int], runs: int) -> Values:
+        """Of all nets in a cycle. sources: of inputs and registers."""
+        every = (1 << runs) - 1
+        values: Values = {"0": 0, "1": every, "x": 0, **sources}
+        for gate in self.gates:
+            of = {pin: values[bit] for pin, bit in gate.inputs.items()}
+            values[gate.output] = gate.cell.function(of) & every
         return values
 
-    def changes(self, values: Values, cycles: int, with_glitches: bool) -> dict[Bit, int]:
-        """How often each net changes. with_glitches: every gate takes the same time; without, none
-        takes any."""
-        between = (1 << cycles - 1) - 1
-        if not with_glitches:
-            return {bit: ((v ^ v >> 1) & between).bit_count() for bit, v in values.items()}
-        driven = {gate.output for gate in self.gates}
-        now = {bit: v & between if bit in driven else v >> 1 for bit, v in values.items()}
-        counts = {
-            bit: ((v ^ v >> 1) & between).bit_count() if bit not in driven else 0
-            for bit, v in values.items()
-        }
-        fed: dict[Bit, list[Gate]] = {}
-        for gate in self.gates:
-            for bit in set(gate.inputs.values()):
-                fed.setdefault(bit, []).append(gate)
-        touched = {gate.output: gate for gate in self.gates}
-        while touched:
+    def changes(
+        self, inputs: Callable[[int], Mapping[Bit, int]], runs: int, first: int, past: int
+    ) -> tuple[Counter[Bit], Counter[Bit]]:
+        """How often each net changes on the way into the cycles from first on: with gates that take
+        no time, and with gates that all take the same. Registers begin with 0."""
+        settled: Counter[Bit] = Counter()
+        glitching: Counter[Bit] = Counter()
+        held = dict.fromkeys(self.registers, 0)
+        now: Values = {}
+        for cycle in range(past):
+            sources = {**inputs(cycle), **held}
+            before = now
+            if cycle < first:
+                now = self.settled(sources, runs)
+            else:
+                now = self.glitches(before, sources, runs, glitching)
+                for bit, value in now.items():
+                    settled[bit] += (value ^ before[bit]).bit_count()
+            held = {output: now[source] for output, source in self.registers.items()}
+        return settled, glitching
+
+    def glitches(
+        self, before: Values, sources: Mapping[Bit, int], runs: int, counts: Counter[Bit]
+    ) -> Values:
+        """Of all nets at the end, each change on the way added to counts. before: in the cycle
+        before."""
+        every = (1 << runs) - 1
+        now = {**before, **sources}
+        changed = [bit for bit, value in sources.items() if value != before[bit]]
+        for bit in changed:
+            counts[bit] += (now[bit] ^ before[bit]).bit_count()
+        while changed:
             new = {}
-            for output, gate in touched.items():
+            for gate in {g.output: g for bit in changed for g in self.fed.get(bit, ())}.values():
                 of = {pin: now[bit] for pin, bit in gate.inputs.items()}
-                value = gate.cell.function(of) & between
-                if value != now[output]:
-                    counts[output] += (value ^ now[output]).bit_count()
-                    new[output] = value
+                value = gate.cell.function(of) & every
+                if value != now[gate.output]:
+                    counts[gate.output] += (value ^ now[gate.output]).bit_count()
+                    new[gate.output] = value
             now |= new
-            touched = {g.output: g for bit in new for g in fed.get(bit, ())}
-        return counts
+            changed = list(new)
+        return now
 
     def pj_a_cycle(self, changes: Mapping[Bit, int], cycles: int, volts: float) -> float:
-        """Within gates, and of the inputs that nets drive; of wires and clocks nothing."""
+        """Within gates, and of the inputs that nets drive; of wires and clocks nothing. cycles: of
+        all runs."""
         nets = sum(
             count * self.load_pf.get(bit, 0.0) * volts * volts / 2 for bit, count in changes.items()
         )
         within = sum(changes[gate.output] * gate.cell.pj for gate in self.gates)
         held = sum(changes[output] * self.register.pj for output in self.registers)
-        return (nets + within + held) / (cycles - 1)
+        return (nets + within + held) / cycles
 
 
 def netlist_of(module: Mapping, cells: Mapping[str, Cell], register: Cell) -> Netlist:
@@ -191,15 +192,29 @@ def netlist_of(module: Mapping, cells: Mapping[str, Cell], register: Cell) -> Ne
         gates.append(Gate(cell, inputs, pins[cell.output]))
         for pin, bit in inputs.items():
             load[bit] = load.get(bit, 0.0) + cell.capacitance_pf[pin]
-    return Netlist(gates, registers, register, load)
+    fed: dict[Bit, list[Gate]] = {}
+    for gate in gates:
+        for bit in set(gate.inputs.values()):
+            fed.setdefault(bit, []).append(gate)
+    return Netlist(in_order(gates), registers, register, load, fed)
 
+
+def in_order(gates: Sequence[Gate]) -> list[Gate]:
+    """Each behind those that drive it."""
+    drivers = {gate.output: gate for gate in gates}
+    graph = {gate.output: [bit for bit in gate.inputs.values() if bit in drivers] for gate in gates}
+    return [drivers[bit] for bit in graphlib.TopologicalSorter(graph).static_order()]
+
+
+FIXED = ("clock", "reset", "unrounded", "phase")  # inputs that are not random
 
 NODE_NM = 32
 
 # Energy goes with the gates' length and the square of the voltage.
 NODE_VOLTS = 0.9
 NODES_NM = {"osu018": 180, "sg13g2": 130, "sky130": 130, "nangate45": 45}
-CYCLES = 1000  # of random operands
+# Of random operands: runs side by side, and cycles of each, of which the first fill pipelines.
+RUNS, FILLING, COUNTED = 200, 48, 6
 
 # Cells that a mapper is not to choose: for power domains, clocks, delays, scan and layout.
 NOT_MAPPED = re.compile(r"lpflow|clk|dly|probe|sighold|antenna|decap|fill|spare|l?gcp|_s?edf|_sdf")
@@ -338,21 +353,27 @@ def random_word(bits: int) -> int:
     return word & 0x83FF | random.randint(11, 19) << 10 if bits == 16 else word
 
 
-def switched(library: Library, modules: dict) -> tuple[float, float]:
-    """pJ a cycle of random operands, settled and with glitches; lanes round their products."""
+def switched(library: Library, modules: dict, interval: int) -> tuple[float, float]:
+    """pJ a cycle of random operands, settled and with glitches; lanes round their products. An
+    input `phase` counts the cycles of an interval."""
     (module,) = (each for each in modules.values() if each["cells"])
     netlist = netlist_of(module, library.cells, library.register)
     random.seed(1)
-    inputs: dict[Bit, int] = {}
-    for name, port in module["ports"].items():
-        if port["direction"] == "input":
-            held = name in ("clock", "unrounded")
-            words = [0 if held else random_word(len(port["bits"])) for _ in range(CYCLES)]
-            for at, bit in enumerate(port["bits"]):
-                inputs[bit] = sum((word >> at & 1) << cycle for cycle, word in enumerate(words))
-    values = netlist.values(inputs, CYCLES)
+    ports = [(n, p["bits"]) for n, p in module["ports"].items() if p["direction"] == "input"]
+
+    def inputs(cycle: int) -> Values:
+        values: Values = {}
+        for name, bits in ports:
+            if name in FIXED:
+                words = [cycle % interval if name == "phase" else 0] * RUNS
+            else:
+                words = [random_word(len(bits)) for _ in range(RUNS)]
+            for at, bit in enumerate(bits):
+                values[bit] = sum((word >> at & 1) << run for run, word in enumerate(words))
+        return values
+
+    changes = netlist.changes(inputs, RUNS, FILLING, FILLING + COUNTED)
     settled, glitching = (
-        netlist.pj_a_cycle(netlist.changes(values, CYCLES, glitches), CYCLES, library.volts)
-        for glitches in (False, True)
+        netlist.pj_a_cycle(each, COUNTED * RUNS, library.volts) for each in changes
     )
     return settled, glitching

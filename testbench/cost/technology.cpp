@@ -40,12 +40,13 @@ using Json = nlohmann::ordered_json;
 
 // Throws InputError unless `stated` has each number of the table: what it lacks would cost nothing.
 // A clock may stay untold.
-// Published points of the SRAM formula are in no cost. at: path of the keys.
+// Published points of the SRAM formula and published parts are in no cost. at: path of the keys.
 void check_stated(const Json& table, const std::string& at, const std::set<std::string>& stated,
                   const std::string& path) {
   for (const auto& [key, value] : table.items()) {
     const std::string place = at.empty() ? key : at + "." + key;
-    if (place == "sram.points" || place == "clock_mhz" || key == "source") continue;
+    const bool in_no_cost = place == "sram.points" || place == "published";
+    if (in_no_cost || place == "clock_mhz" || key == "source") continue;
     if (value.is_object()) {
       check_stated(value, place, stated, path);
     } else if (!value.is_string() && stated.count(place) == 0) {
@@ -171,6 +172,7 @@ void visit(ConfigVisitor& v, Technology& technology) {
   v("clock_mhz", technology.clock_mhz, in_range(0, 10000),
     "fastest clock that the table and the depths of pipelines stand for; 0: not told");
   v.sections("parts", technology.parts, "logic, by kind");
+  v.sections("published", technology.published, "published constants of parts, in no cost");
   v.section("sram", technology.sram, "on-chip memory");
   v.section("die", technology.die, "by area");
   v.section("memory_interface", technology.memory_interface, "of each memory channel");

@@ -118,6 +118,8 @@ struct Technology {
   std::string name;                       // the node's name
   double clock_mhz = 0;                   // that its rows and depths of pipelines stand for; 0: any
   std::map<std::string, PartCost> parts;  // by kind
+  // What literature says where the parts go by gates, and what other rows are made of: in no cost.
+  std::map<std::string, PartCost> published;
   SramModel sram;
   DieCost die;
   MemoryInterfaceCost memory_interface;

@@ -73,9 +73,9 @@ std::uint64_t macs_of_a_sampled_beginning() { return folded_macs(sampled_ray_flo
 std::uint64_t macs_of_a_sample() { return folded_macs(ray_sample_flow().counts()); }
 
 std::uint64_t comparisons_of_a_step() {
-  return comparisons(ray_step_flow(longest_step_case()).counts());
+  return ray_step_flow(longest_step_case()).counts().comparisons;
 }
-std::uint64_t comparisons_of_a_beginning() { return comparisons(pixel_ray_flow().counts()); }
+std::uint64_t comparisons_of_a_beginning() { return pixel_ray_flow().counts().comparisons; }
 
 ExpectedVisits expect(const PaperVsuPlan& plan) {
   ExpectedVisits out;

@@ -194,8 +194,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
     pixels += static_cast<std::uint64_t>(px.width()) * static_cast<std::uint64_t>(px.height());
   }
   const OperationCounts drained = pixel_flow(plan.job.frame_format).counts();
-  const std::uint64_t span_macs = pixels * folded_macs(drained) + taken * folded_macs(conic) +
-                                  spans * folded_macs(span) + spanned * folded_macs(spans_begin);
+  const std::uint64_t span_macs = spans * folded_macs(span) + spanned * folded_macs(spans_begin);
   // The mask is asked of every row for a splat, and of the row that is held for each cluster.
   const auto rows = static_cast<std::uint64_t>(plan.group.height / 4);
   const auto words = ceil_div(static_cast<std::uint64_t>(plan.group.width / 4), 32);
@@ -209,16 +208,31 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   checks.that(row_cycles >= rows_sent, "more than a row goes out in a cycle");
   checks.equal(mask_writes, expected.subtiles_finished + bits * plan.groups.size(),
                "bits of the mask written");
-  const std::uint64_t dispatched =
-      pushed * rows * words + row_cycles * plan.config.clusters * words + looks * in_loop;
-  bench.check_operations("rendering", "comparator",
-                         dispatched + pixels * comparisons(drained) + taken * comparisons(conic) +
-                             blends * comparisons(subtile_blend) + spans * comparisons(span) +
-                             spanned * comparisons(spans_begin));
+  bench.check_operations("rendering", "comparator", pushed * rows * words + looks * in_loop);
   const bool in_half = in_16_bits(plan.config.precision);
+  const auto added = [](const OperationCounts& of) { return of.scalings + of.index_adds; };
+  bench.check_operations("rendering", "adder",
+                         row_cycles * plan.config.clusters * words + pixels * added(drained) +
+                             taken * added(conic) + spans * added(span) +
+                             spanned * added(spans_begin) +
+                             (in_half ? 0 : blends * added(subtile_blend)));
+  const std::uint64_t compared = pixels * drained.comparisons + taken * conic.comparisons +
+                                 spans * span.comparisons + spanned * spans_begin.comparisons,
+                      of_pixels = blends * subtile_blend.comparisons;
+  bench.check_operations("rendering", "number_comparator", compared + (in_half ? 0 : of_pixels));
+  bench.check_operations("rendering", in_half ? "exp2_split_half" : "exp2_split", blends * 16);
   bench.check_operations("rendering", in_half ? "exp2_table_half" : "exp2_table", blends * 16);
-  bench.check_operations("rendering", "fp32_lane", span_macs + (in_half ? 0 : blend_macs));
-  if (in_half) bench.check_operations("rendering", "fp16_lane", blend_macs);
+  // Lanes of pixels only chain, those of spans make quotients and roots; a conic in squares, too.
+  const std::uint64_t conic_macs = taken * folded_macs(conic);
+  const bool squares = conic.divisions > 0;
+  bench.check_operations("rendering", "fp32_lane", span_macs + (squares ? conic_macs : 0));
+  bench.check_operations(
+      "rendering", "fp32_chaining_lane",
+      pixels * folded_macs(drained) + (squares ? 0 : conic_macs) + (in_half ? 0 : blend_macs));
+  if (in_half) {
+    bench.check_operations("rendering", "half_comparator", of_pixels);
+    bench.check_operations("rendering", "fp16_lane", blend_macs);
+  }
   // The 16 pixels of a sub-tile at once: blended, cleared; read by rows in draining.
   std::uint64_t reads = 16 * blends, writes = 16 * blends;
   for (const PixelRect& px : plan.job.groups) {

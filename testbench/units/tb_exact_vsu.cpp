@@ -56,13 +56,12 @@ void check_left_out(Checks& checks, const ReportedGroups& groups, std::uint32_t 
 }
 
 // Rows of the mask for an entry that is looked up, depth and number of each open node for the
-// nearest chunk, and what a test compares; beside these the queues, two keys a level at most, and
-// where no queue holds more than one entry nothing.
+// nearest chunk; beside these the queues, two keys a level at most, and where no queue holds more
+// than one entry nothing. Numbers that a test compares have comparators of their own.
 void check_comparators(UnitBench& bench, const ExactVsuPlan& plan, std::uint64_t operations,
                        std::uint64_t open_keys) {
   constexpr std::uint64_t kRows = 4, kWords = 2, kOfLevel = 2;  // groups of 16 x 16 px
-  const std::uint64_t least = kRows * bench.counter("looked_up") + kWords * open_keys +
-                              bench.counter("tests") * comparisons_of_a_test();
+  const std::uint64_t least = kRows * bench.counter("looked_up") + kWords * open_keys;
   const std::uint64_t levels =
       heap_levels(std::max(plan.config.queue_entries, plan.config.node_queue_entries));
   const double done = bench.operations("vsu", "comparator");
@@ -90,6 +89,8 @@ void check_counters(UnitBench& bench, const ExactVsuPlan& plan, const ExpectedWa
   checks.that(bench.bytes_read() >= table_bytes, "bytes read of the tree");
   checks.that(bench.bytes_read() <= table_bytes + aside_bytes, "bytes read of what was put aside");
   bench.check_operations("vsu", "fp32_lane", bench.counter("tests") * macs_of_a_test());
+  bench.check_operations("vsu", "number_comparator",
+                         bench.counter("tests") * comparisons_of_a_test());
   checks.equal(bench.counter("nodes"),
                bench.counter("upper_nodes_opened") + bench.counter("nodes_read") -
                    bench.counter("nodes_dropped"),

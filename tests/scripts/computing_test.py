@@ -1,5 +1,7 @@
 """What the scripts compute themselves."""
 
+import dataclasses
+import json
 import math
 import pathlib
 import shutil
@@ -353,7 +355,8 @@ class Synthesis(unittest.TestCase):
   }
 }
 """
-    STAGE = datapath.Module("32 register bits", "stage", "register_bit", 32, ("WIDTH 32",))
+    STAGE = next(module for module in datapath.MODULES if module.top == "stage")
+    ADDER = next(module for module in datapath.MODULES if module.name == "adder")
 
     def test_cells_of_a_library(self):
         found = {name: self.CELLS[a:b] for name, a, b in gates.cells_of(self.CELLS)}
@@ -383,17 +386,24 @@ class Synthesis(unittest.TestCase):
             "held": gate("$_DFF_P_", D=5, Q=6, C=3),
         }
         netlist = gates.netlist_of({"cells": cells}, {"NAND": nand, "XOR": either}, register)
-        values = netlist.values({1: 0b0110, 2: 0b1010, 3: 0}, 4)
-        self.assertEqual((values[4], values[5], values[6]), (0b1101, 0b1011, 0b0110))
-        settled = netlist.changes(values, 4, False)
+        values = netlist.settled({1: 0b0110, 2: 0b1010, 3: 0, 6: 0}, 4)
+        self.assertEqual((values[4], values[5]), (0b1101, 0b1011))
+
+        def inputs(cycle: int) -> dict:
+            return {1: 0b0110 >> cycle & 1, 2: 0b1010 >> cycle & 1, 3: 0}
+
+        settled, glitching = netlist.changes(inputs, 1, 1, 4)
         self.assertEqual([settled[bit] for bit in (1, 2, 4, 5, 6)], [2, 3, 2, 2, 2])
         # At first a rises before x falls, and y falls for a while.
-        glitching = netlist.changes(values, 4, True)
         self.assertEqual([glitching[bit] for bit in (1, 2, 4, 5, 6)], [2, 3, 2, 4, 2])
         # a drives two inputs, b and x one, y the register; a change of x takes 2 pJ within.
         self.assertAlmostEqual(
-            netlist.pj_a_cycle(settled, 4, 1.0), (2 * 2 + 3 + 2 + 4 * 2) / 2 / 3 + 2 * 2 / 3
+            netlist.pj_a_cycle(settled, 3, 1.0), (2 * 2 + 3 + 2 + 4 * 2) / 2 / 3 + 2 * 2 / 3
         )
+        # A register that takes itself: it turns in each cycle in which a is set.
+        turns = {"one": gate("XOR", A=6, B=1, Y=5), "held": gate("$_DFF_P_", D=5, Q=6, C=3)}
+        netlist = gates.netlist_of({"cells": turns}, {"XOR": either}, register)
+        self.assertEqual(netlist.changes(inputs, 1, 1, 4)[0][6], 2)
 
     def test_a_library_without_a_nand_is_refused(self):
         with tempfile.TemporaryDirectory() as name:
@@ -404,17 +414,71 @@ class Synthesis(unittest.TestCase):
 
     def test_at_32_nm_the_least_depth_is_typical_and_the_most_slow(self):
         mapped = [
-            datapath.Mapped("a", self.STAGE, "small", 100, 32, 90, 1, (0, 0), (100, 2 * 100)),
-            datapath.Mapped("a", self.STAGE, "fast", 200, 32, 20, 1, (0, 0), (200, 2 * 200)),
-            datapath.Mapped("b", self.STAGE, "fast", 400, 32, 45, 1, (0, 0), (400, 2 * 400)),
+            datapath.Mapped("a", self.STAGE, "small", 100, 32, 90, 1, (3, 9), (100, 2 * 100)),
+            datapath.Mapped("a", self.STAGE, "fast", 200, 32, 20, 1, (4, 8), (200, 2 * 200)),
+            datapath.Mapped("b", self.STAGE, "fast", 400, 32, 45, 1, (2, 6), (400, 2 * 400)),
         ]
-        name, bits, least, most, *depth_and_area = datapath.node_row(self.STAGE, mapped)
+        charged = datapath.charged_as(self.STAGE, {})
+        name, bits, least, most, *depth_and_area = datapath.node_row(
+            self.STAGE, mapped, mapped, charged
+        )
         self.assertEqual((name, bits, least, most), ("32 register bits", 32, 100, 400))
         nand2 = 0.798 * 1024 / 2025
         expected = (20, 45, 25 * 0.01152, 50 * 0.016, 100 * nand2, 200 * nand2 / 0.75)
         for got, wanted in zip(depth_and_area, (*expected, 400 * nand2 / 0.65)):
             self.assertAlmostEqual(got, wanted)
-        self.assertEqual(depth_and_area[-7:-3], [100, 400, 200, 800])
+        self.assertEqual(depth_and_area[13:17], [100, 400, 200, 800])
+        # As much energy as the module whose energy is published.
+        self.assertEqual(depth_and_area[17:20], datapath.priced(datapath.LANE, "published", "pj"))
+
+    def test_energy_is_so_much_of_the_published_one(self):
+        """Settled. Low: the least of libraries. Middle: their geometric mean. High: the most."""
+
+        def mapped(library: str, *pj: float) -> datapath.Mapped:
+            return datapath.Mapped(library, self.ADDER, "fast", 1, 0, 1, 1, pj, (0, 0))
+
+        low, middle, high = datapath.priced(datapath.LANE, "published", "pj")
+        got = datapath.pj_of_gates(
+            [mapped("a", 1, 30), mapped("b", 8, 5)], [mapped("a", 10, 100), mapped("b", 20, 100)]
+        )
+        for value, wanted in zip(got, (0.1 * low, 0.2 * middle, 0.4 * high)):
+            self.assertAlmostEqual(value, wanted)
+        self.assertEqual(datapath.pj_of_gates([], []), [None] * 3)
+
+    def test_parts_beside_lanes_go_with_the_lanes(self):
+        beside = {"adder": {"parts": 24, "operations": 16}}
+        datapaths = {"of": {"lanes": 256, "used": {"macs": 190}, "beside": beside}}
+        module = dataclasses.replace(self.ADDER, charged="of", lanes=4)
+        parts, operations = datapath.charged_as(module, datapaths)
+        self.assertEqual(parts, (("adder", 24 * 4 / 256),))
+        self.assertAlmostEqual(operations[0][1], 16 * 4 / 190)
+
+    def test_the_ledger_charges_what_the_gates_say(self):
+        """Each row that has gates, by the rule and by the table of what was mapped."""
+        modules = {module.name: module for module in datapath.MODULES}
+        mapped = [
+            datapath.Mapped(
+                row["library"],
+                modules[row["module"]],
+                row["mapped"],
+                float(row["NAND2"]),
+                int(row["register bits"]),
+                float(row["FO4"]),
+                float(row["um2"]),
+                (float(row["pJ, settled"]), float(row["pJ, with glitches"])),
+                (0, 0),
+            )
+            for row in tables.read_rows(TABLES, "synthesis")
+        ]
+        ledger = json.loads(datapath.TECHNOLOGY.read_text())["parts"]
+        expected = datapath.constants(mapped)
+        self.assertGreater(len(expected), 15)
+        for kind, of_unit in expected.items():
+            for unit, band in of_unit.items():
+                for end, wanted in band.items():
+                    got = ledger[kind][unit][end]
+                    with self.subTest(kind=kind, unit=unit, end=end):
+                        self.assertLess(abs(got / wanted - 1), 1e-5)
 
     @nightly
     @unittest.skipUnless(HAS_GATES, "yosys or osu018 is not installed")
@@ -452,10 +516,9 @@ class Synthesis(unittest.TestCase):
             expected = 16 * library.register.pj
             self.assertAlmostEqual(registers.pj[0], registers.pj[1])
             self.assertGreater(registers.pj[0], 0.9 * expected)
-            adder = datapath.Module("adder", "comparator", "comparator", 1, ("HAS 4",))
-            logic = datapath.in_gates(adder, folder)
+            logic = datapath.in_gates(self.ADDER, folder)
             small, fast = (
-                datapath.mapped_to(library, adder, logic, mapping, folder)
+                datapath.mapped_to(library, self.ADDER, logic, mapping, folder)
                 for mapping in datapath.MAPPINGS
             )
             self.assertGreater(small.pj[1], small.pj[0])

@@ -20,7 +20,7 @@ constexpr const char *kEnds = "ends of lists", *kLines = "lines of lists",
 constexpr std::uint32_t kTestedBoxBytes = 4 * 2 + 4 * 4 + 4 * 4;
 // Comparators beside the memories: whose line it is, whether line and block are full, whether the
 // pool is. Three subtractions of powers of two of the lines give a tile's place among them.
-constexpr std::uint32_t kComparators = 4 + 3;
+constexpr std::uint32_t kComparators = 4, kAdders = 3;
 
 // Bytes of a line's tag: its tile, the range of its new entries, and its number in the pool, where
 // it is written when another tile takes its place.
@@ -298,6 +298,8 @@ void TileLister::publish(DataSheet& sheet) {
   if (part_path_) sheet.accesses(kTestedBoxes, counters_.part_tests, tested);
   sheet.part("lists", "comparator", kComparators, 1);
   sheet.operations("lists", "comparator", static_cast<double>(kComparators * counters_.pairs));
+  sheet.part("lists", "adder", kAdders, 1);
+  sheet.operations("lists", "adder", static_cast<double>(kAdders * counters_.pairs));
   // The Gaussian whose tiles are tested; the end of the list that was written last, which may be
   // wanted before it can be read.
   constexpr double kTestedBits = 8.0 * Converted::kSramBytes;

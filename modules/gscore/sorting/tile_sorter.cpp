@@ -18,8 +18,7 @@ constexpr std::uint32_t kPlaceBytes = 2;    // place of an entry in a list
 constexpr std::uint32_t kLoadedBytes = 16;  // tile, count, keys
 
 // Each QSU compares with the pivots, the least and the greatest key, and counts.
-constexpr std::uint32_t kEntryComparisons = kPivots + 2 + 1;
-constexpr std::uint32_t kQsuComparators = kEntryComparisons + kPivotAdders;
+constexpr std::uint32_t kEntryComparisons = kPivots + 2, kEntryAdditions = 1;
 constexpr std::uint32_t kSplitAdditions = kPivotAdders * kPivots + kSubsets;
 
 // Bytes of a subset, at each level of splitting: its keys, and where it begins and how many entries
@@ -229,9 +228,12 @@ void TileSorter::publish(DataSheet& sheet) {
   const double pivot_bits = 8.0 * config_.entries().key_bytes() * (kPivots + 2);
   const std::uint32_t mark_bits = most_levels(config_.tiles.keys) *
                                   (counter_bits(stack_blocks(config_)) + counter_bits(kSubsets));
-  sheet.part("qsu", "comparator", kQsus * kQsuComparators, 1);
+  sheet.part("qsu", "comparator", kQsus * kEntryComparisons, 1);
   sheet.operations("qsu", "comparator",
-                   double{kEntryComparisons} * static_cast<double>(n.keys_compared) +
+                   double{kEntryComparisons} * static_cast<double>(n.keys_compared));
+  sheet.part("qsu", "adder", kQsus * (kEntryAdditions + kPivotAdders), 1);
+  sheet.operations("qsu", "adder",
+                   double{kEntryAdditions} * static_cast<double>(n.keys_compared) +
                        double{kSplitAdditions} * static_cast<double>(n.splits + n.lists_split));
   sheet.part("qsu", "register_bit", kQsus * (pivot_bits + mark_bits), 1);
   sheet.operations("qsu", "register_bit",

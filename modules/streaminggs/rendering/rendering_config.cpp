@@ -55,8 +55,8 @@ Datapath terms_pipeline(const OperationLatencies& single) {
   constexpr std::uint32_t kHalves = 7, kOfConic = 3;
   const FlowPart flow = conic_terms_flow();
   Datapath path = counted_datapath("conic_terms", "rendering", flow.counts());
-  path.part_of("comparator").operations +=
-      kHalves * kConversionComparisons + kOfConic * kScalingComparisons;
+  path.part_of("conversion").operations += kHalves;
+  path.part_of("adder").operations += kOfConic;
   path.lanes = path.used_macs;
   schedule(path, flow.steps(single), single);
   return path;
@@ -66,8 +66,7 @@ Datapath blend_pipeline(const RenderingConfig& config, const OperationLatencies&
   const OperationCounts& counts = counted(config.precision).subtile_blend;
   const bool in_half = in_16_bits(config.precision);
   Datapath path = counted_datapath("subtile_blend", "rendering", counts,
-                                   in_half ? "exp2_table_half" : "exp2_table");
-  if (in_half) path.lane = "fp16_lane";
+                                   in_half ? NumberFormat::kHalf : NumberFormat::kSingle);
   path.lanes = config.cluster_lanes;
   path.copies = config.clusters;
   schedule(path, counted(config.precision).flows.subtile_blend.steps(latencies), latencies,

@@ -29,12 +29,12 @@ SramUse spans_use(const RenderingConfig& config, const PixelSize& group) {
                   {2 * bits, SramPorts::kReadAndWrite, at_once}, {1, at_once});
 }
 
-// Comparators of the dispatcher that find each cluster's first sub-tile in the rest of a row: x &
-// -x of its bits.
-std::uint32_t row_comparators(const PixelSize& group, std::uint32_t clusters) {
-  constexpr std::uint64_t kComparatorBits = 32;
+// Adders of the dispatcher that find each cluster's first sub-tile in the rest of a row: x & -x of
+// its bits.
+std::uint32_t row_adders(const PixelSize& group, std::uint32_t clusters) {
+  constexpr std::uint64_t kAdderBits = 32;
   const auto columns = cycles_for(static_cast<std::uint64_t>(group.width), kSubtilePx);
-  return clusters * static_cast<std::uint32_t>(cycles_for(columns, kComparatorBits));
+  return clusters * static_cast<std::uint32_t>(cycles_for(columns, kAdderBits));
 }
 
 // A memory for each place of a pixel in a sub-tile, in each cluster: a blend reads and writes all
@@ -128,7 +128,7 @@ void RenderingUnit::publish_dispatcher(DataSheet& sheet) {
   // When a splat is taken, all rows are asked at once whether its footprint is finished.
   const std::uint64_t dropped = counters_.splats_hidden + counters_.splats_saturated;
   const double of_splat = mask_comparators(built_for_.group);
-  const double of_row = row_comparators(built_for_.group, config_.clusters);
+  const double of_row = row_adders(built_for_.group, config_.clusters);
   // The head of a queue against all sub-tiles in the loop, in every cycle that it is looked at.
   const double of_loop = config_.subtiles_in_loop();
   // The splat whose rows go out.
@@ -136,11 +136,12 @@ void RenderingUnit::publish_dispatcher(DataSheet& sheet) {
   sheet.operations("rendering", "register_bit",
                    8 * kSplatEntryBytes * static_cast<double>(counters_.splats_taken));
   const auto looks = clusters.subtile_blends + clusters.hazard_cycles;
-  sheet.part("rendering", "comparator", of_splat + of_row + config_.clusters * of_loop, 1);
+  sheet.part("rendering", "comparator", of_splat + config_.clusters * of_loop, 1);
   sheet.operations("rendering", "comparator",
                    of_splat * static_cast<double>(counters_.splats_taken + dropped) +
-                       of_row * static_cast<double>(clusters.row_cycles) +
                        of_loop * static_cast<double>(looks));
+  sheet.part("rendering", "adder", of_row, 1);
+  sheet.operations("rendering", "adder", of_row * static_cast<double>(clusters.row_cycles));
   const std::uint64_t bits = mask_bits(built_for_.group);
   sheet.accesses("finished sub-tiles",
                  bits * (dropped + counters_.splats_taken + clusters.row_cycles),

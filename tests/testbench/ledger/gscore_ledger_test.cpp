@@ -149,7 +149,8 @@ std::vector<Row> rows_of(const Frame& frame, const Build& b) {
   constexpr double kBlocks = 16, kNext = 5 + 16;
   return {
       // Whose line, whether line, block and pool are full; three subtractions for the line's place.
-      {"lists", "comparator", 7, 7 * pairs},
+      {"lists", "comparator", 4, 4 * pairs},
+      {"lists", "adder", 3, 3 * pairs},
       {"lists", "register_bit", kGaussian + b.end_bits, kGaussian * gaussians + b.end_bits * pairs},
       {"lists", "select_bit", kGaussian * (b.ccus - 1), kGaussian * b.levels * gaussians},
       // Another comparator chooses the run that a merge's turn takes 8 entries of.
@@ -162,8 +163,10 @@ std::vector<Row> rows_of(const Frame& frame, const Build& b) {
        w * (chunked + merged) + (w + 2 * b.place_bits) * turns},
       // Two units: 7 pivots, two ends and a count for an entry; two adders of pivots, which make 7
       // of two sums and 8 places a split. What is split on chip passes twice.
-      {"qsu", "comparator", b.cores * 2 * (7 + 2 + 1 + 2),
-       10 * (sorted("entries_read") + 2 * sorted("split_entries")) + (2 * 7 + 8) * all_splits},
+      {"qsu", "comparator", b.cores * 2 * (7 + 2),
+       9 * (sorted("entries_read") + 2 * sorted("split_entries"))},
+      {"qsu", "adder", b.cores * 2 * (1 + 2),
+       sorted("entries_read") + 2 * sorted("split_entries") + (2 * 7 + 8) * all_splits},
       // Beside them the rows that were written last.
       {"qsu", "register_bit",
        b.cores * (2 * (pivot_bits + b.mark_bits) + b.row_bits + b.row_in_memory_bits),
