@@ -49,12 +49,21 @@ class GroupFrustumOf {
   GroupFrustumOf(const View<T>& view, const PixelRect& pixels) : view_(view), pixels_(pixels) {}
 
   ChunkTestOf<T> test(const ChunkBoundOf<T>& bound) const;
+  // The same, for a walk that asks for no depth and no sub-tiles.
+  bool touches(const ChunkBoundOf<T>& bound) const { return compared(bound).touches; }
 
  private:
   using Vec = glm::vec<3, T>;
   struct Interval {
     T low, high;
   };
+  // Where touches: ranges of v_x / v_z and v_y / v_z, and reaches to each side.
+  struct Compared {
+    bool touches;
+    Interval z, x_ratio, y_ratio;
+    T reach_x, reach_y, padding_px;
+  };
+  Compared compared(const ChunkBoundOf<T>& bound) const;
 
   static Interval ratio_range(Interval x, Interval z);
   static Interval clamped(Interval ratio, T limit);
@@ -118,7 +127,8 @@ bool GroupFrustumOf<T>::beyond_side(const Vec& centre, const Vec& half, int axis
 }
 
 template <class T>
-ChunkTestOf<T> GroupFrustumOf<T>::test(const ChunkBoundOf<T>& bound) const {
+typename GroupFrustumOf<T>::Compared GroupFrustumOf<T>::compared(
+    const ChunkBoundOf<T>& bound) const {
   using std::abs;
   const T one = T(1.0F);
   // Box of the centres relative to the camera: middle and half-size, the latter rounded up.
@@ -142,7 +152,7 @@ ChunkTestOf<T> GroupFrustumOf<T>::test(const ChunkBoundOf<T>& bound) const {
   };
   const T near_plane = constant<T>(kNearPlane);
   const Interval depth = range_along(2);
-  if (depth.high < near_plane) return {false, T(0.0F), {}};
+  if (depth.high < near_plane) return {};
   // Beyond float depth.low may not be a number: then nothing is known.
   const Interval z{depth.low > near_plane ? depth.low : near_plane, depth.high};
   const Interval x_ratio = ratio_range(range_along(0), z), y_ratio = ratio_range(range_along(1), z);
@@ -178,10 +188,17 @@ ChunkTestOf<T> GroupFrustumOf<T>::test(const ChunkBoundOf<T>& bound) const {
       beyond_side(centre, half, 0, -one, px(pixels_.x1 - 1), padding_px, reach_x, far_sum) ||
       beyond_side(centre, half, 1, one, px(pixels_.y0), padding_px, reach_y, far_sum) ||
       beyond_side(centre, half, 1, -one, px(pixels_.y1 - 1), padding_px, reach_y, far_sum);
-  if (outside) return {false, z.low, {}};
+  return {!outside, z, x_ratio, y_ratio, reach_x, reach_y, padding_px};
+}
+
+template <class T>
+ChunkTestOf<T> GroupFrustumOf<T>::test(const ChunkBoundOf<T>& bound) const {
+  const Compared seen = compared(bound);
+  if (!seen.touches) return {false, seen.z.low, {}};
   using std::ceil, std::floor;
+  const auto px = [](int at) { return T(static_cast<float>(at)); };
   const auto subtiles = [&](T middle, T axis_focal, Interval ratio, T reach, int begin, int end) {
-    const T around = axis_focal * reach / z.low + padding_px;
+    const T around = axis_focal * reach / seen.z.low + seen.padding_px;
     const T left = px(begin), right = px(end - 1);
     // A value that is not a number leaves the group's own edge.
     const T first =
@@ -191,10 +208,10 @@ ChunkTestOf<T> GroupFrustumOf<T>::test(const ChunkBoundOf<T>& bound) const {
     return std::array<std::uint8_t, 2>{subtile_of(first, begin), subtile_of(last, begin)};
   };
   const auto [x0, x1] =
-      subtiles(view_.centre_x, view_.focal_x, x_ratio, reach_x, pixels_.x0, pixels_.x1);
+      subtiles(view_.centre_x, view_.focal_x, seen.x_ratio, seen.reach_x, pixels_.x0, pixels_.x1);
   const auto [y0, y1] =
-      subtiles(view_.centre_y, view_.focal_y, y_ratio, reach_y, pixels_.y0, pixels_.y1);
-  return {true, z.low, {x0, y0, x1, y1}};
+      subtiles(view_.centre_y, view_.focal_y, seen.y_ratio, seen.reach_y, pixels_.y0, pixels_.y1);
+  return {true, seen.z.low, {x0, y0, x1, y1}};
 }
 
 extern template class GroupFrustumOf<float>;

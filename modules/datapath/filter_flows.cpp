@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "algorithm/splat/coarse_bound.h"
-#include "algorithm/splat/counting.h"
 #include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/square_conic.h"
@@ -78,6 +77,11 @@ FlowPart coarse_flow(CoarseBoundBy bound_by, const FilterCase& tested, std::uint
   return whole(flow);
 }
 
+void restore_largest(DataFlow& flow, std::array<Counting, 4>& quat) {
+  auto& [largest, x, y, z] = quat;
+  largest = moved_by_units(largest_component<Counting>({x, y, z}), input_index(flow, 0));
+}
+
 FineFlow fine_flow(const FilterCase& tested, const FineRecord& record) {
   const auto flow = std::make_shared<DataFlow>();
   const auto view = make_view<Counting>(tested.camera);
@@ -85,10 +89,7 @@ FineFlow fine_flow(const FilterCase& tested, const FineRecord& record) {
   std::array<glm::vec<3, Counting>, 16> sh;
   for (auto& coefficient : sh) coefficient = input(*flow, glm::vec3(1.0F));
   flow->pass_beside(kBesideFine);
-  if (record.quaternion_words < gaussian.quat.size()) {
-    auto& [largest, x, y, z] = gaussian.quat;
-    largest = moved_by_units(largest_component<Counting>({x, y, z}), input_index(*flow, 0));
-  }
+  if (record.quaternion_words < gaussian.quat.size()) restore_largest(*flow, gaussian.quat);
   const std::size_t decoded = flow->size();
 
   SplatOf<Counting> splat{};

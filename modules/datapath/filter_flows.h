@@ -3,10 +3,12 @@
 // frame or a group and kept. The decoding of records is left out, but for that of a quaternion.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "algorithm/memory/record_split.h"
 #include "algorithm/scene/camera.h"
+#include "algorithm/splat/counting.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/rects.h"
 #include "modules/datapath/lane_steps.h"
@@ -40,6 +42,9 @@ struct FineFlow {
   FlowPart colour;      // spherical harmonics
 };
 FineFlow fine_flow(const FilterCase& tested, const FineRecord& record);
+
+// The largest component of a quaternion that is stored without it, from the other three.
+void restore_largest(DataFlow& flow, std::array<Counting, 4>& quat);
 
 // Rounding of a splat behind the fine filter to the halves of its entry (splat_record.h): the
 // conic's square completed, in units of its own.

@@ -1,5 +1,5 @@
-"""Includes follow the layers: no folder points upward, and no folders of algorithm/ stand in a
-circle."""
+"""Includes follow the layers: no folder points upward, no machine's room knows another's, and no
+folders of algorithm/ stand in a circle."""
 
 import graphlib
 import pathlib
@@ -33,6 +33,12 @@ class Layers(unittest.TestCase):
             for source, others in included(folder).items():
                 found = {other.partition("/")[0] for other in others}
                 self.assertLessEqual(found, below | {folder}, source)
+
+    def test_no_machine_knows_another(self):
+        rooms = ("modules/streaminggs", "modules/gscore")
+        for room, other in (rooms, rooms[::-1]):
+            for source, others in included(room).items():
+                self.assertEqual([path for path in others if path.startswith(other)], [], source)
 
     def test_no_circle_in_algorithm(self):
         folders: dict[str, set[str]] = {}

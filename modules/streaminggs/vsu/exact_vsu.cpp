@@ -109,7 +109,7 @@ bool ExactVsu::hidden(const WalkEntry& entry) {
 
 bool ExactVsu::enter_children() {
   if (!tester_.can_take()) return false;
-  const NodeInTest tested = tester_.take(walk_);
+  const NodeInTest<WalkEntry> tested = tester_.take(walk_);
   const std::uint64_t opened = chunk_walk_.counters().nodes;
   chunk_walk_.open(tested.entry, tested.record);
   if (chunk_walk_.counters().nodes == opened) drop(1);
@@ -234,7 +234,7 @@ void ExactVsu::wait_for_news() {
 // Nodes may be of the group behind that which is walked: a walk's number is its group's, cut short.
 void ExactVsu::run_tests() {
   tester_.run([this](const WalkEntry& entry) {
-    return group_ + static_cast<std::uint16_t>(entry.walk - group_);
+    tester_.activity().takes_up_group(group_ + static_cast<std::uint16_t>(entry.walk - group_));
   });
 }
 

@@ -15,13 +15,13 @@
 #include <vector>
 
 #include "algorithm/order/chunk_walk.h"
+#include "modules/chunks/chunk_tester.h"
+#include "modules/chunks/node_buffer.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/finished_subtiles.h"
 #include "modules/streaminggs/messages.h"
 #include "modules/streaminggs/unit_context.h"
-#include "modules/streaminggs/vsu/chunk_tester.h"
 #include "modules/streaminggs/vsu/exact_vsu_config.h"
-#include "modules/streaminggs/vsu/node_buffer.h"
 #include "modules/streaminggs/vsu/walk_aside.h"
 #include "tlm/data_sheet.h"
 #include "tlm/memory_access.h"
@@ -96,8 +96,8 @@ class ExactVsu : public sc_core::sc_module {
   const StreamingJob& job_;
   Activity walk_, hand_out_;
   std::vector<ChunkNode> upper_;  // the tree's first nodes
-  NodeBuffer nodes_;
-  ChunkTester tester_;
+  NodeBuffer<WalkEntry> nodes_;
+  ChunkTester<WalkEntry> tester_;
   const QueueRoom node_room_{"node_queue"}, chunk_room_{"chunk_queue"};
   WalkAside aside_;  // entries that the queues have no room for
   ChunkWalk<WalkAside> chunk_walk_;

@@ -1,25 +1,14 @@
-// The chunk test and the traversal run with the counting scalar, and their schedules.
+// The traversal runs with the counting scalar; schedules of both VSUs.
 #include "modules/streaminggs/vsu/vsu_datapaths.h"
 
 #include <memory>
 
 #include "algorithm/splat/counting.h"
 #include "algorithm/voxel/cell_samples.h"
-#include "algorithm/voxel/chunk_test.h"
-#include "algorithm/voxel/chunk_tree.h"
 #include "algorithm/voxel/ray_path.h"
 #include "modules/datapath/counted_datapath.h"
-#include "modules/datapath/filter_flows.h"
 
 namespace sgs {
-
-// Found by extent_value() through their arguments.
-static Counting extent_fraction(CountingIndex q) {
-  return recorded(extent_fraction(q.value), Operation::kLookUp, q);
-}
-static Counting scaled_by_exponent(Counting x, CountingIndex exponent) {
-  return recorded(scaled_by_exponent(x.value, exponent.value), Operation::kScale, x, exponent);
-}
 
 // Found by RayPath through its argument.
 static CountingIndex cell_of(Counting coordinate, Counting voxel_size) {
@@ -68,42 +57,6 @@ Datapath pipeline(const char* name, const FlowPart& flow, std::uint32_t lanes,
 }
 
 }  // namespace
-
-ChunkCase longest_chunk_case() {
-  const FilterCase gaussian = longest_case();
-  ChunkCase out;
-  out.camera = gaussian.camera;
-  out.group = gaussian.group;
-  out.bound.low = gaussian.gaussian.mean - glm::vec3(0.31F, 0.22F, 0.27F);
-  out.bound.high = gaussian.gaussian.mean + glm::vec3(0.29F, 0.33F, 0.25F);
-  out.bound.extent = {0.7F, 0.9F, 0.8F};
-  out.bound.scale_max = 0.35F;
-  return out;
-}
-
-FlowPart chunk_flow(const ChunkCase& tested) {
-  const auto recorded = std::make_shared<DataFlow>();
-  DataFlow& flow = *recorded;
-  const auto view = make_view<Counting>(tested.camera);
-  ChunkNode node;
-  node.children = 1;
-  quantise(&tested.bound, node);
-  const CountingIndex least = input_index(flow, least_extent_exponent(node.extent_exponent));
-  ChunkBoundOf<Counting> bound;
-  for (int k = 0; k < 3; ++k) {
-    const Counting origin = input(flow, node.origin[k]);
-    const Counting step = input(flow, std::ldexp(1.0F, node.step_exponent[k]));
-    bound.low[k] = box_bound(origin, step, input_index(flow, node.low[0][k]));
-    bound.high[k] = box_bound(origin, step, input_index(flow, node.high[0][k]));
-    bound.extent[k] = extent_value<Counting>(input_index(flow, node.extent[0][k]), least);
-  }
-  bound.scale_max = extent_value<Counting>(input_index(flow, node.scale[0]), least);
-  const ChunkTestOf<Counting> test = GroupFrustumOf<Counting>(view, tested.group).test(bound);
-  flow.pass_beside(1);  // which child of which node
-  // A child is no nearer than its parent.
-  if (test.touches) static_cast<void>(max_of(test.nearest, input(flow, 0.0F)));
-  return whole(recorded);
-}
 
 StepCase longest_step_case() { return {{2.1F, 4.3F, 3.9F}, {0.69F, 0.43F, 0.94F}, 0}; }
 StepCase cell_step_case() { return {{0.3F, 0.4F, 0.2F}, {0.61F, 0.53F, 0.59F}, ~std::uint64_t{0}}; }

@@ -5,31 +5,13 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "algorithm/scene/camera.h"
-#include "algorithm/splat/rects.h"
-#include "algorithm/voxel/chunk_tree.h"
+#include "modules/chunks/chunk_flows.h"
 #include "modules/datapath/lane_steps.h"
 #include "modules/streaminggs/vsu/exact_vsu_config.h"
 #include "modules/streaminggs/vsu/paper_vsu_config.h"
 #include "tlm/datapath.h"
 
 namespace sgs {
-
-// A chunk, and the view and group it is tested against.
-struct ChunkCase {
-  Camera camera;
-  ChunkBound bound;
-  PixelRect group;
-};
-
-// A chunk that touches its group: all four sides are looked at. A unit that starts a test at fixed
-// intervals has to be built for this.
-ChunkCase longest_chunk_case();
-
-// Operations of one test, up to where it fails or to its end, with the walk's use of its result.
-// The child is decoded from its node: box bounds origin + q 2^e, extents by table. Values of the
-// camera and of the group are constants.
-FlowPart chunk_flow(const ChunkCase& tested);
 
 // The first step of a ray in a root of 16 cells of 0.7 a side, all of whose nodes have these
 // children. Origin: in the root; world units.

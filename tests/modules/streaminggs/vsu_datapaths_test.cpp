@@ -41,6 +41,7 @@ TEST_CASE("chunk test, counted: the counted test computes what the float one com
     const auto again = GroupFrustumOf<Counting>(counting_view, tested.group).test(counted(bound));
     CHECK(test.touches == again.touches);
     CHECK(test.nearest == again.nearest.value);
+    CHECK(GroupFrustum(view, tested.group).touches(bound) == test.touches);
     touching += test.touches ? 1 : 0;
   }
   CHECK(touching > 100);
@@ -55,6 +56,7 @@ TEST_CASE(
   // One quotient for each end of two ranges, one of the spread and two of the reach, by near and
   // far.
   CHECK(work.divisions == 7);
+  CHECK(chunk_culling_flow(tested).counts().divisions == 5);  // without the reach
   CHECK(work.divisors <= 2);
   CHECK(work.square_roots == 2);
   // The child out of its node: six bounds of a box, and a row of the table for each extent and the

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "algorithm/order/chunk_walk.h"
+#include "tests/modules/clocked/clocked_chunk_tests.h"
 #include "tests/modules/clocked/clocked_fifo.h"
 #include "tests/modules/clocked/clocked_port.h"
 #include "tests/modules/clocked/surroundings.h"
@@ -21,8 +22,7 @@ namespace sgs::test {
 
 struct WalkHardware {
   std::uint32_t upper_nodes = 24, nodes_in_flight = 2, nodes_in_test = 8;
-  std::uint32_t test_cycles = 8;  // of a child on the lanes
-  std::uint32_t depth_cycles = 198;
+  ChunkTestHardware tests;
   std::uint32_t operation_cycles = 3;  // of a queue
   std::uint32_t queue_entries = 512, node_queue_entries = 256;
   PortHardware port = {};
@@ -42,6 +42,7 @@ class ClockedWalk {
         places_(places),
         groups_(groups),
         finishing_(finishing),
+        tests_(hardware.tests, nodes),
         walk_(view, aside_, {hw_.node_queue_entries, hw_.queue_entries}) {
     const std::uint64_t upper = std::min<std::uint64_t>(hw_.upper_nodes, nodes.size());
     upper_ = {places.base, upper * places.record_bytes};
@@ -55,10 +56,8 @@ class ClockedWalk {
     credits_ = std::exchange(new_credits_, 0);
     if (busy_ > 0) --busy_;
     if (busy_ == 0 && port_.read(upper_) && port_.answered(upper_) && finish_step()) begin_step();
-    test();
+    tests_.step(now_);
     for (InFlight& node : in_flight_) node.came = port_.answered(node.read);
-    for (Tested& node : tested_) node.left -= node.left > 0 ? 1 : 0;
-    waiting_.step();
     ready_.step();
     ++now_;
   }
@@ -80,10 +79,6 @@ class ClockedWalk {
     ClockedTransfer read;
     bool came = false;  // by the last edge
   };
-  struct Tested {
-    WalkEntry entry;
-    std::uint32_t left;  // cycles until it can be taken
-  };
   struct Visit {
     std::uint64_t what;
     std::uint32_t group;
@@ -92,7 +87,7 @@ class ClockedWalk {
   // What the operation that ends now gives on. False: it waits for the port.
   bool finish_step() {
     if (to_test_) {
-      waiting_.put(*to_test_);
+      tests_.put(*to_test_);
       to_test_.reset();
     }
     if (to_read_) {
@@ -132,7 +127,7 @@ class ClockedWalk {
     if (!walk_.has_node()) return false;
     if (!walk_.has_room_for_another() && !walk_.needs_node()) return false;
     const bool on_chip = walk_.next_node().at < hw_.upper_nodes;
-    if (on_chip ? in_test_ == hw_.nodes_in_test : in_flight_.size() == hw_.nodes_in_flight) {
+    if (on_chip ? tests_.used() == hw_.nodes_in_test : in_flight_.size() == hw_.nodes_in_flight) {
       return false;
     }
     const WalkEntry entry = walk_.take_node();
@@ -140,7 +135,7 @@ class ClockedWalk {
       walk_.leave_out(entry);
     } else if (on_chip) {
       to_test_ = entry;
-      ++in_test_;
+      tests_.take_place();
     } else {
       to_read_ = InFlight{entry, {places_.address(entry.at), places_.record_bytes}};
     }
@@ -181,22 +176,20 @@ class ClockedWalk {
     take_time(1);
   }
   bool enter_children() {
-    if (tested_.empty() || tested_.front().left > 0) return false;
-    const WalkEntry entry = tested_.front().entry;
-    tested_.pop_front();
-    --in_test_;
+    if (!tests_.can_take()) return false;
+    const WalkEntry entry = tests_.take();
     walk_.open(entry, nodes_[entry.at]);
     take_time(1);
     return true;
   }
   bool begin_test() {
     if (in_flight_.empty() || !in_flight_.front().came) return false;
-    if (in_test_ == hw_.nodes_in_test) return false;
+    if (tests_.used() == hw_.nodes_in_test) return false;
     const WalkEntry entry = in_flight_.front().entry;
     in_flight_.pop_front();
     if (!walk_.has_ended(entry)) {
       to_test_ = entry;
-      ++in_test_;
+      tests_.take_place();
     }
     take_time(1);
     return true;
@@ -205,17 +198,6 @@ class ClockedWalk {
   void give(std::uint64_t what) {
     ready_.put({what, group_});
     --room_;
-  }
-
-  // A child in each turn of the lanes; a node's last one, out of the pipeline, brings it back.
-  void test() {
-    if (now_ % hw_.test_cycles != 0) return;
-    if (children_ == 0) {
-      if (!waiting_.can_take()) return;
-      on_lanes_ = waiting_.take();
-      children_ = nodes_[on_lanes_.at].children;
-    }
-    if (--children_ == 0) tested_.push_back({on_lanes_, hw_.depth_cycles + 1});
   }
 
   // Of a finished group a visit is dropped in its cycle.
@@ -237,6 +219,7 @@ class ClockedWalk {
   const RecordArray& places_;
   const std::vector<PixelRect>& groups_;
   const Finishing finishing_;
+  ClockedChunkTests<WalkEntry> tests_;
   Aside aside_;
   ChunkWalk<Aside> walk_;
   std::uint64_t now_ = 0, busy_ = 0, operations_ = 0, visit_ = 0;
@@ -245,10 +228,6 @@ class ClockedWalk {
   std::optional<WalkEntry> held_, to_test_;
   std::optional<InFlight> to_read_;
   std::deque<InFlight> in_flight_;
-  ClockedFifo<WalkEntry> waiting_{1024};  // in_test_ bounds it
-  std::uint32_t in_test_ = 0, children_ = 0;
-  WalkEntry on_lanes_;
-  std::deque<Tested> tested_;
   std::uint32_t room_ = 4, credits_ = 0, new_credits_ = 0;
   ClockedFifo<Visit> ready_{4};
   std::optional<std::uint64_t> out_;

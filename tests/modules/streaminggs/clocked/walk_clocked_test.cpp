@@ -32,9 +32,9 @@ tb::ExactVsuPlan plan_of(const WalkWorkload& load, std::uint64_t seed) {
   plan.config.upper_nodes = hw.upper_nodes;
   plan.config.nodes_in_flight = hw.nodes_in_flight;
   plan.config.nodes_in_test = hw.nodes_in_test;
-  plan.config.test_lanes =
-      static_cast<std::uint32_t>((tb::macs_of_a_test() + hw.test_cycles - 1) / hw.test_cycles);
-  plan.config.test_depth_cycles = hw.depth_cycles;
+  plan.config.test_lanes = static_cast<std::uint32_t>(
+      (tb::macs_of_a_test() + hw.tests.test_cycles - 1) / hw.tests.test_cycles);
+  plan.config.test_depth_cycles = hw.tests.depth_cycles;
   plan.config.cycles_per_queue_operation = hw.operation_cycles;
   plan.config.queue_entries = hw.queue_entries;
   plan.config.node_queue_entries = hw.node_queue_entries;
@@ -103,11 +103,11 @@ TEST_CASE("clocked reference: VSU of exact order") {
   tiny.nodes_in_test = 1;
   tiny.upper_nodes = 1;
   WalkHardware narrow = exact;
-  narrow.test_cycles = 30;
+  narrow.tests.test_cycles = 30;
   narrow.nodes_in_test = 3;
   WalkHardware fast = exact;
   fast.operation_cycles = 2;
-  fast.test_cycles = 1;
+  fast.tests.test_cycles = 1;
   for (const WalkWorkload& load : {
            WalkWorkload{"light: 100 Gaussians", 100, 1, 1, exact},
            WalkWorkload{"heavy: 3000 Gaussians", 3000, 1, 1, exact},

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "algorithm/memory/scene_layout.h"
-#include "algorithm/order/walk_queue.h"
 #include "algorithm/voxel/chunk_tree.h"
 #include "tlm/memory_access.h"
 
@@ -17,6 +16,8 @@ namespace sgs {
 
 // Two threads of one unit: one asks and takes, the other waits for the memory. A node can be taken
 // the cycle after it has come, so that it does not matter which of them the kernel runs first.
+// Entry: what the unit knows of a node, whose number it calls `at`.
+template <class Entry>
 class NodeBuffer {
  public:
   NodeBuffer(std::uint32_t slots, const RecordArray& table) : table_(table), nodes_(slots) {}
@@ -25,7 +26,7 @@ class NodeBuffer {
   std::size_t used() const { return used_; }
 
   // Only where it is not full.
-  void ask(const WalkEntry& entry, MemoryPort& port, Activity& activity) {
+  void ask(const Entry& entry, MemoryPort& port, Activity& activity) {
     Node& node = nodes_[(oldest_ + used_) % nodes_.size()];
     ++used_;
     node.entry = entry;
@@ -44,7 +45,7 @@ class NodeBuffer {
   const sc_core::sc_time& ready_at() const { return arrived_.front(); }
 
   // The oldest node and its entry; its slot is free.
-  std::pair<WalkEntry, ChunkNode> take() {
+  std::pair<Entry, ChunkNode> take() {
     const Node& node = nodes_[oldest_];
     oldest_ = (oldest_ + 1) % nodes_.size();
     --used_;
@@ -66,7 +67,7 @@ class NodeBuffer {
 
  private:
   struct Node {
-    WalkEntry entry;
+    Entry entry;
     ChunkNode record;
   };
 

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <systemc>
 
-#include "algorithm/order/walk_queue.h"
 #include "algorithm/voxel/chunk_tree.h"
 #include "modules/datapath/work_rates.h"
 #include "tlm/datapath.h"
@@ -14,12 +13,15 @@
 
 namespace sgs {
 
+// entry: what the unit knows of the node beside its record.
+template <class Entry>
 struct NodeInTest {
-  WalkEntry entry;
+  Entry entry;
   ChunkNode record;
 };
 
 // One thread puts and takes; another is the lanes.
+template <class Entry>
 class ChunkTester {
  public:
   // slots: nodes in it at a time; depth_cycles: from a child's beginning to its end.
@@ -43,7 +45,7 @@ class ChunkTester {
   bool full() const { return used_ == slots_; }
   std::uint32_t used() const { return used_; }
   // Only where it is not full.
-  void put(const NodeInTest& node, Activity& activity) {
+  void put(const NodeInTest<Entry>& node, Activity& activity) {
     ++used_;
     waiting_.push(node, activity);
   }
@@ -52,17 +54,17 @@ class ChunkTester {
   // One has left the lanes, and can be taken from then on; only where it has.
   bool any_tested() const { return !tested_.empty(); }
   const sc_core::sc_time& ready_at() const { return tested_.ready_at(); }
-  NodeInTest take(Activity& activity) {
+  NodeInTest<Entry> take(Activity& activity) {
     --used_;
     return tested_.pop(activity);
   }
 
-  // Body of the lanes' thread. group_of: that an entry is of.
-  template <class GroupOf>
-  void run(const GroupOf& group_of) {
+  // Body of the lanes' thread. take_up(entry): its children are tested next.
+  template <class TakeUp>
+  void run(const TakeUp& take_up) {
     while (true) {
-      const NodeInTest node = waiting_.pop(test_);
-      test_.takes_up_group(group_of(node.entry));
+      const NodeInTest<Entry> node = waiting_.pop(test_);
+      take_up(node.entry);
       const std::uint64_t now = test_.clock().now_cycles(), interval = lanes_.interval_cycles();
       test_.work(next_turn(now, interval) - now + node.record.children * interval);
       tests_ += node.record.children;
@@ -84,7 +86,7 @@ class ChunkTester {
   const Datapath lanes_;
   const std::uint32_t slots_;
   Activity test_;
-  TimedFifo<NodeInTest> waiting_, tested_;
+  TimedFifo<NodeInTest<Entry>> waiting_, tested_;
   std::uint32_t used_ = 0;
   std::uint64_t tests_ = 0, nodes_ = 0;  // so far; tests: of children
 };
