@@ -39,7 +39,7 @@ class MachineDesign {
   // Its keys of the configuration.
   virtual void visit(ConfigVisitor& v) = 0;
 
-  // Storage order that scenes must have for it.
+  // Storage order that scenes must have for it, by its keys.
   virtual StorageOrder storage_order() const = 0;
 
   // frames(): sizes of the pictures that are going to be drawn, to be called once and only where

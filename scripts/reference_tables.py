@@ -249,12 +249,15 @@ def report_page(described: Described) -> str:
 
 def pages(command: str) -> dict[str, str]:
     """[path below the repository] what stands there."""
-    exact, paper, gscore = (described(command, name) for name in ("exact", "paper", "gscore"))
+    names = ("exact", "paper", "gscore", "gscore_boxes")
+    exact, paper, gscore, boxes = (described(command, name) for name in names)
     return {
         "modules/streaminggs/KEYS.md": machine_page(
             "The streaming machines", {"exact": exact, "paper": paper}
         ),
-        "modules/gscore/KEYS.md": machine_page("The tile-centric machine", {"gscore": gscore}),
+        "modules/gscore/KEYS.md": machine_page(
+            "The tile-centric machine", {"gscore": gscore, "gscore_boxes": boxes}
+        ),
         "modules/dram/KEYS.md": memory_page(command, exact),
         "algorithm/memory/KEYS.md": f"# How scenes are stored: keys\n\n{WRITTEN_BY}"
         + key_table(

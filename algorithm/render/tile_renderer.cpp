@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "algorithm/files/input_error.h"
+#include "algorithm/order/chunk_descent.h"
 #include "algorithm/render/blend_watch.h"
 #include "algorithm/splat/coarse_bound.h"
 
@@ -25,15 +26,26 @@ struct TileSplat {
   std::uint32_t key;
 };
 
+// [Gaussian] whether it is looked at.
+std::vector<char> looked_at(const View<float>& view, std::size_t count, const ChunkTree* boxes) {
+  std::vector<char> out(count, boxes == nullptr ? 1 : 0);
+  if (boxes == nullptr) return out;
+  for_each_touching_chunk(*boxes, view, {0, 0, view.width, view.height},
+                          [&](std::uint32_t first, std::uint32_t gaussians) {
+                            std::fill_n(&out[first], gaussians, char{1});
+                          });
+  return out;
+}
+
 std::vector<TileSplat> project_block(const View<float>& view, const ActivatedCloud& cloud,
-                                     const TileOrderConfig& config, std::size_t begin,
-                                     std::size_t end, TileStats& stats) {
+                                     const TileOrderConfig& config, const std::vector<char>& looked,
+                                     std::size_t begin, std::size_t end, TileStats& stats) {
   std::vector<TileSplat> out;
   const FrameSides<float> sides = frame_sides(view);
   for (std::size_t i = begin; i != end; ++i) {
     const Gaussian<float>& g = cloud.gaussians[i];
     const float scale_max = std::max({g.scale.x, g.scale.y, g.scale.z});
-    if (!may_touch_frame(view, sides, g.mean, scale_max)) {
+    if (looked[i] == 0 || !may_touch_frame(view, sides, g.mean, scale_max)) {
       ++stats.culled;
       continue;
     }
@@ -158,14 +170,15 @@ TileStats& TileStats::operator+=(const TileStats& o) {
 }
 
 TileResult render_tiles(const View<float>& view, const ActivatedCloud& cloud,
-                        const TileOrderConfig& config) {
+                        const TileOrderConfig& config, const ChunkTree* boxes) {
   constexpr std::size_t kBlock = 8192;
   const std::size_t count = cloud.size(), blocks = (count + kBlock - 1) / kBlock;
   std::vector<std::vector<TileSplat>> of_block(blocks);
   std::vector<TileStats> block_stats(blocks);
+  const std::vector<char> looked = looked_at(view, count, boxes);
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
-    of_block[b] = project_block(view, cloud, config, b * kBlock, std::min(count, (b + 1) * kBlock),
-                                block_stats[b]);
+    of_block[b] = project_block(view, cloud, config, looked, b * kBlock,
+                                std::min(count, (b + 1) * kBlock), block_stats[b]);
   });
   TileResult out;
   out.stats.gaussians = count;

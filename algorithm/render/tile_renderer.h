@@ -13,6 +13,7 @@
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/tile_boxes.h"
 #include "algorithm/splat/view.h"
+#include "algorithm/voxel/chunk_tree.h"
 
 namespace sgs {
 
@@ -36,7 +37,7 @@ struct TileOrderConfig {
 
 struct TileStats {
   std::uint64_t gaussians = 0;
-  std::uint64_t culled = 0;         // by FrameSides: they cannot touch the frame
+  std::uint64_t culled = 0;         // by FrameSides or boxes: they cannot touch the frame
   std::uint64_t projected = 0;      // Gaussians listed in a tile
   std::uint64_t tile_tests = 0;     // (Gaussian, tile) candidates
   std::uint64_t subtile_tests = 0;  // parts of tiles tested
@@ -64,10 +65,11 @@ struct TileResult {
   TileStats stats;
 };
 
-// Deterministic whatever the number of threads. Throws InputError when more Gaussians are projected
-// than an entry can tell apart.
+// Deterministic whatever the number of threads. boxes: the tree of the cloud's chunks, where those
+// that cannot touch the frame are left out as wholes; null: every Gaussian is looked at. Throws
+// InputError when more Gaussians are projected than an entry can tell apart.
 TileResult render_tiles(const View<float>& view, const ActivatedCloud& cloud,
-                        const TileOrderConfig& config);
+                        const TileOrderConfig& config, const ChunkTree* boxes = nullptr);
 
 // One entry of a tile's list blended into the tile: the parts of the tile whose bits are set.
 

@@ -3,14 +3,44 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "algorithm/files/input_error.h"
 #include "modules/gscore/ccu/ccu.h"
+#include "modules/gscore/culling/chunk_culler.h"
 #include "modules/gscore/gscore_machine.h"
 #include "modules/gscore/lists/tile_lister.h"
 #include "modules/gscore/rendering/render_core.h"
 #include "modules/gscore/sorting/tile_sorter.h"
 
 namespace sgs::gscore {
+namespace {
+
+// Calls visit(split) for every encoding and degree of the scenes that it takes.
+template <class Visit>
+void for_each_split(StorageOrder order, const Visit& visit) {
+  for (const auto encoding : {SecondHalfEncoding::kRaw, SecondHalfEncoding::kHalf}) {
+    for (int degree = 0; degree <= kMostDegree; ++degree) {
+      visit(split_of(order, {encoding, degree, {}}));
+    }
+  }
+}
+
+}  // namespace
+
+std::uint32_t GscoreConfig::first_half_bytes() const {
+  std::uint32_t most = 0;
+  for_each_split(storage_order(),
+                 [&](const RecordSplit& split) { most = std::max(most, split.first_bytes()); });
+  return most;
+}
+
+std::uint32_t GscoreConfig::carried_words() const {
+  std::uint32_t most = 0;
+  for_each_split(storage_order(),
+                 [&](const RecordSplit& split) { most = std::max(most, split.carried_words); });
+  return most;
+}
 
 TileOrderConfig GscoreConfig::order() const {
   TileOrderConfig out;
@@ -24,6 +54,7 @@ TileOrderConfig GscoreConfig::order() const {
 
 SramUses sram_uses(const GscoreConfig& c) {
   SramUses uses;
+  if (c.culls_chunks()) add(uses, ChunkCuller::sram_uses(c));
   add(uses, Ccu::sram_uses(c), c.ccus);
   add(uses, TileLister::sram_uses(c));
   add(uses, TileSorter::sram_uses(c), c.cores);

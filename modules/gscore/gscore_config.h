@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "algorithm/memory/frame_buffer.h"
+#include "algorithm/memory/scene_layout.h"
 #include "algorithm/memory/tile_records.h"
 #include "algorithm/render/tile_renderer.h"
 #include "modules/config/config_visitor.h"
@@ -37,6 +38,37 @@ inline void visit(ConfigVisitor& v, TilesConfig& c) {
       names<NumberFormat>({{"fp32", NumberFormat::kSingle}, {"fp16", NumberFormat::kHalf}});
   v("features", c.features, formats, "of projected Gaussians in memory");
   v("keys", c.keys, formats, "of depth");
+}
+
+// What is culled before its Gaussians are fetched.
+enum class CullingBy : std::uint8_t {
+  kGaussians,   // nothing: every first half is read
+  kChunkBoxes,  // chunks, by the tree of their boxes
+};
+
+struct CullingConfig {
+  CullingBy by = CullingBy::kGaussians;
+  std::uint32_t nodes_in_flight = 8, nodes_in_test = 8, nodes_tested = 32;
+  std::uint32_t test_lanes = 10;
+  std::uint32_t tree_levels = 64;
+};
+
+inline void visit(ConfigVisitor& v, CullingConfig& c) {
+  v("by", c.by,
+    names<CullingBy>(
+        {{"gaussians", CullingBy::kGaussians}, {"chunk_boxes", CullingBy::kChunkBoxes}}),
+    "frustum culling of each Gaussian; or of chunks first, by the tree of their boxes, with scenes "
+    "stored by chunks");
+  v("nodes_in_flight", c.nodes_in_flight, in_range(1, 1024),
+    "by chunk_boxes: nodes on their way from DRAM at a time");
+  v("nodes_in_test", c.nodes_in_test, in_range(1, 1024),
+    "by chunk_boxes: nodes whose children are in the test's pipeline");
+  v("nodes_tested", c.nodes_tested, in_range(1, 1024),
+    "by chunk_boxes: most nodes on their way, in test, or tested ahead of their turn");
+  v("test_lanes", c.test_lanes, in_range(1, 10000),
+    "by chunk_boxes: MAC lanes of the test of a box");
+  v("tree_levels", c.tree_levels, in_range(1, 65536),
+    "by chunk_boxes: levels of the deepest tree that the walk has room for");
 }
 
 struct CcuConfig {
@@ -144,6 +176,7 @@ struct GscoreConfig {
   std::uint32_t ccus = 4, cores = 4;
   TilesConfig tiles;
   SramConfig sram;
+  CullingConfig culling;
   CcuConfig ccu;
   ListsConfig lists;
   SortingConfig sorting;
@@ -157,6 +190,13 @@ struct GscoreConfig {
   }
   EntryFormat entries() const { return {tiles.keys, tiles.subtiles_across, tiles.features}; }
   BlockFormat blocks() const { return {entries(), lists.line_bytes, lists.block_lines}; }
+  bool culls_chunks() const { return culling.by == CullingBy::kChunkBoxes; }
+  StorageOrder storage_order() const {
+    return culls_chunks() ? StorageOrder::kChunks : StorageOrder::kFile;
+  }
+  // The most of any scene that it takes.
+  std::uint32_t first_half_bytes() const;
+  std::uint32_t carried_words() const;
   TileOrderConfig order() const;
   std::uint32_t pool_blocks() const {
     return static_cast<std::uint32_t>(lists.pool_bytes / blocks().block_bytes());
@@ -175,6 +215,7 @@ inline void visit(ConfigVisitor& v, GscoreConfig& c) {
   v("cores", c.cores, in_range(1, 64), "with two QSUs, a BSU and 16 VRUs each");
   v.section("tiles", c.tiles, "how Gaussians come to tiles");
   v.section("sram", c.sram, "on-chip memory");
+  v.section("culling", c.culling, "what is culled ahead of the CCUs");
   v.section("ccu", c.ccu, "each culling and conversion unit");
   v.section("lists", c.lists, "lists of tiles");
   v.section("sorting", c.sorting, "sorter of each core");

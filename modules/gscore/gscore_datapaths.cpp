@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "modules/chunks/chunk_flows.h"
 #include "modules/datapath/counted_datapath.h"
 #include "modules/datapath/rendering_flows.h"
 #include "modules/datapath/work_rates.h"
@@ -34,8 +35,10 @@ void count_opacity(Datapath& path, const GscoreConfig& config) {
 }
 
 Datapath convert_of_degree(const GscoreConfig& config, int sh_degree) {
-  const FlowPart flow =
-      convert_flow(config.tiles.rules(), sh_degree, config.tiles.features == NumberFormat::kHalf);
+  const RecordSplit split =
+      split_of(config.storage_order(), {SecondHalfEncoding::kRaw, sh_degree, {}});
+  const FlowPart flow = convert_flow(config.tiles.rules(), split.fine_record(sh_degree),
+                                     config.tiles.features == NumberFormat::kHalf);
   Datapath path = counted("convert", "ccu", flow, config.ccu.convert_lanes, config.single());
   count_opacity(path, config);
   return path;
@@ -59,22 +62,24 @@ std::uint64_t blend_interval(const GscoreConfig& config) {
 
 }  // namespace
 
+Datapath chunk_test_pipeline(const GscoreConfig& config) {
+  return counted("chunk_test", "culler", chunk_culling_flow(longest_chunk_case()),
+                 config.culling.test_lanes, config.single());
+}
+
 Datapath cull_pipeline(const GscoreConfig& config) {
   return counted("cull", "ccu", cull_flow(), config.ccu.cull_lanes, config.single());
 }
 
 // Scheduling takes longest of all, and every CCU, the budget and the report ask.
 Datapath convert_pipeline(const GscoreConfig& config, int sh_degree) {
-  using Key = std::tuple<TileReach, TileTest, int, NumberFormat, std::uint32_t, std::uint32_t, int>;
+  using Key = std::tuple<StorageOrder, TileReach, TileTest, int, NumberFormat, std::uint32_t,
+                         std::uint32_t, int>;
   static std::map<Key, Datapath> known;
   const TilesConfig& tiles = config.tiles;
-  const Key key{tiles.reach,
-                tiles.test,
-                tiles.subtiles_across,
-                tiles.features,
-                config.ccu.convert_lanes,
-                config.lane_latency_cycles,
-                sh_degree};
+  const Key key{config.storage_order(),     tiles.reach,    tiles.test,
+                tiles.subtiles_across,      tiles.features, config.ccu.convert_lanes,
+                config.lane_latency_cycles, sh_degree};
   if (const auto at = known.find(key); at != known.end()) return at->second;
   Datapath path = convert_of_degree(config, sh_degree);
   for (int degree = 0; degree <= kMostDegree; ++degree) {

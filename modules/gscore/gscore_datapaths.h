@@ -8,7 +8,9 @@
 
 namespace sgs::gscore {
 
-// Datapaths of one CCU. convert: built for every SH degree, items of this one.
+// Datapath of the culler, an item a child of a node.
+Datapath chunk_test_pipeline(const GscoreConfig& config);
+// Datapaths of one CCU. convert: built for every SH degree, items of this one, as raw records are.
 Datapath cull_pipeline(const GscoreConfig& config);
 Datapath convert_pipeline(const GscoreConfig& config, int sh_degree);
 // Datapaths of all CCUs, before the lists: they test neighbours in a row of tiles, and the parts of

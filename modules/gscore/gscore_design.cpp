@@ -53,6 +53,11 @@ void GscoreDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>
 void GscoreDesign::adapt(const SecondHalfFormat&, std::vector<AutoChoice>&) {}
 
 FrameJob GscoreDesign::job(const StoredScene& scene, const Camera& camera) const {
+  if (config_.culls_chunks() && scene.tree().depth > config_.culling.tree_levels) {
+    throw InputError(fmt::format(
+        "culling.tree_levels: got {}, expected {} or more: the levels of the scene's chunk tree",
+        config_.culling.tree_levels, scene.tree().depth));
+  }
   FrameJob job;
   job.view = make_view<float>(camera);
   job.layout = scene.image.layout;
@@ -65,7 +70,8 @@ GoldenFrame GscoreDesign::golden(const StoredScene& scene, const FrameJob& job,
                                  DataSheet& sheet) const {
   TileOrderConfig order = config_.order();
   order.background = job.background;
-  TileResult result = render_tiles(job.view, scene.decoded, order);
+  const ChunkTree* boxes = config_.culls_chunks() ? &scene.tree() : nullptr;
+  TileResult result = render_tiles(job.view, scene.decoded, order, boxes);
   const TileStats& stats = result.stats;
   sheet.left_out("tiles_not_touched", "boxes along the ellipses", stats.tile_tests - stats.pairs,
                  "entries of lists");
@@ -91,10 +97,10 @@ GoldenFrame GscoreDesign::golden(const StoredScene& scene, const FrameJob& job,
 
 std::string GscoreDesign::golden_key() const {
   const TileOrderConfig of = config_.order();
-  return fmt::format("{} {} {} {} {} {} {}", static_cast<int>(of.rules.reach),
-                     static_cast<int>(of.rules.test), of.rules.subtiles_across,
-                     static_cast<int>(of.features), static_cast<int>(of.keys),
-                     static_cast<int>(of.precision), of.chunk_entries);
+  return fmt::format("{} {} {} {} {} {} {} {}", static_cast<int>(config_.culling.by),
+                     static_cast<int>(of.rules.reach), static_cast<int>(of.rules.test),
+                     of.rules.subtiles_across, static_cast<int>(of.features),
+                     static_cast<int>(of.keys), static_cast<int>(of.precision), of.chunk_entries);
 }
 
 std::unique_ptr<Machine> GscoreDesign::build(const sc_core::sc_module_name& name,

@@ -10,7 +10,7 @@ namespace sgs::gscore {
 class GscoreDesign : public MachineDesign {
  public:
   void visit(ConfigVisitor& v) override { gscore::visit(v, config_); }
-  StorageOrder storage_order() const override { return StorageOrder::kFile; }
+  StorageOrder storage_order() const override { return config_.storage_order(); }
   void fit_frames(const std::function<std::vector<PixelSize>()>& frames) override;
   void resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) override;
   std::vector<const char*> fit_memories() override {

@@ -9,9 +9,9 @@
 namespace sgs::gscore {
 namespace {
 
-constexpr const char *kPasses = "passes", *kConverted = "converted Gaussians",
-                     *kRequests = "tile requests", *kJobs = "tile jobs",
-                     *kSorted = "sorted entries", *kDone = "passes done";
+constexpr const char *kPasses = "passes", *kVisible = "visible slices",
+                     *kConverted = "converted Gaussians", *kRequests = "tile requests",
+                     *kJobs = "tile jobs", *kSorted = "sorted entries", *kDone = "passes done";
 
 // Entries of the FIFO of converted Gaussians, with room for the items in the pipeline.
 std::uint32_t converted_entries(const GscoreConfig& c, const Datapath& conversion) {
@@ -27,6 +27,11 @@ std::uint32_t most_converted_entries(const GscoreConfig& c) {
   return most;
 }
 
+// Slices that wait ahead of a CCU: a cycle there, a cycle back.
+constexpr std::uint32_t kVisibleEntries = 2;
+
+std::uint32_t pass_fifos(const GscoreConfig& c) { return c.culls_chunks() ? 1 : c.ccus; }
+
 SramUse times(SramUse use, std::uint32_t count) {
   use.count = count;
   return use;
@@ -35,15 +40,21 @@ SramUse times(SramUse use, std::uint32_t count) {
 }  // namespace
 
 SramUses queue_uses(const GscoreConfig& c) {
-  return {times(fifo_use<Pass>(kPasses, kBuffer, 1, "passes"), c.ccus),
-          times(fifo_use<Converted>(kConverted, kBuffer, most_converted_entries(c), "Gaussians"),
-                c.ccus),
-          times(fifo_use<TileRequest>(kRequests, kBuffer, 1, "requests"), c.cores),
-          times(fifo_use<TileJob>(kJobs, kBuffer, 1, "jobs"), c.cores),
-          times(fifo_use<SortedEntry>(kSorted, kBuffer, c.rendering.sorted_entries, "entries",
-                                      SortedEntry::sram_bytes(c.entries())),
-                c.cores),
-          times(fifo_use<PassDone>(kDone, kBuffer, 1, "passes"), c.cores)};
+  SramUses uses = {
+      times(fifo_use<Pass>(kPasses, kBuffer, 1, "passes"), pass_fifos(c)),
+      times(fifo_use<Converted>(kConverted, kBuffer, most_converted_entries(c), "Gaussians"),
+            c.ccus),
+      times(fifo_use<TileRequest>(kRequests, kBuffer, 1, "requests"), c.cores),
+      times(fifo_use<TileJob>(kJobs, kBuffer, 1, "jobs"), c.cores),
+      times(fifo_use<SortedEntry>(kSorted, kBuffer, c.rendering.sorted_entries, "entries",
+                                  SortedEntry::sram_bytes(c.entries())),
+            c.cores),
+      times(fifo_use<PassDone>(kDone, kBuffer, 1, "passes"), c.cores)};
+  if (c.culls_chunks()) {
+    uses.push_back(
+        times(fifo_use<VisibleSlice>(kVisible, kBuffer, kVisibleEntries, "slices"), c.ccus));
+  }
+  return uses;
 }
 
 GscoreMachine::GscoreMachine(const sc_core::sc_module_name& name, const GscoreConfig& config,
@@ -61,7 +72,12 @@ GscoreMachine::GscoreMachine(const sc_core::sc_module_name& name, const GscoreCo
 
 void GscoreMachine::add_all_fifos(const BuildOptions& options) {
   const Datapath conversion = convert_pipeline(config_, job_.layout.sh_degree());
-  add_fifos(passes_, "passes_to_ccu", config_.ccus, 1, 1, options);
+  if (config_.culls_chunks()) {
+    add_fifos(passes_, "passes_to_culler", 1, 1, 1, options);
+    add_fifos(visible_, "visible_to_ccu", config_.ccus, kVisibleEntries, 1, options);
+  } else {
+    add_fifos(passes_, "passes_to_ccu", config_.ccus, 1, 1, options);
+  }
   add_fifos(converted_, "converted_by_ccu", config_.ccus, converted_entries(config_, conversion),
             conversion.depth_cycles, options);
   add_fifos(requests_, "requests_of_core", config_.cores, 1, 1, options);
@@ -71,6 +87,7 @@ void GscoreMachine::add_all_fifos(const BuildOptions& options) {
 }
 
 void GscoreMachine::make_units() {
+  if (config_.culls_chunks()) culler_ = std::make_unique<ChunkCuller>("culler", context());
   for (std::uint32_t c = 0; c < config_.ccus; ++c) {
     ccus_.push_back(std::make_unique<Ccu>(fmt::format("ccu{}", c).c_str(), c, context()));
   }
@@ -86,9 +103,15 @@ void GscoreMachine::make_units() {
 }
 
 void GscoreMachine::bind() {
+  for (const auto& fifo : passes_) lister_.passes(*fifo);
+  if (culler_) culler_->passes(*passes_[0]);
   for (std::uint32_t c = 0; c < config_.ccus; ++c) {
-    lister_.passes(*passes_[c]);
-    ccus_[c]->passes(*passes_[c]);
+    if (culler_) {
+      culler_->slices(*visible_[c]);
+      ccus_[c]->visible(*visible_[c]);
+    } else {
+      ccus_[c]->passes(*passes_[c]);
+    }
     ccus_[c]->converted(*converted_[c]);
     lister_.converted(*converted_[c]);
   }
@@ -114,6 +137,7 @@ void GscoreMachine::publish_queues(DataSheet& sheet, const Fifos<T>& fifos, cons
 }
 
 void GscoreMachine::publish(DataSheet& sheet) {
+  if (culler_) culler_->publish(sheet);
   for (const auto& ccu : ccus_) ccu->publish(sheet);
   lister_.publish(sheet);
   for (std::uint32_t c = 0; c < config_.cores; ++c) {
@@ -123,6 +147,7 @@ void GscoreMachine::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.sram(queue_uses(config_));
   publish_queues(sheet, passes_, kPasses, "ccus");
+  publish_queues(sheet, visible_, kVisible, "ccu.input_slots");
   publish_queues(sheet, converted_, kConverted, "ccu.output_entries");
   publish_queues(sheet, requests_, kRequests, "cores");
   publish_queues(sheet, jobs_, kJobs, "sorting.list_buffers");

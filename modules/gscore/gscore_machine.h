@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "modules/gscore/ccu/ccu.h"
+#include "modules/gscore/culling/chunk_culler.h"
 #include "modules/gscore/finished_tiles.h"
 #include "modules/gscore/gscore_job.h"
 #include "modules/gscore/lists/tile_lister.h"
@@ -55,13 +56,15 @@ class GscoreMachine : public Machine {
   const GscoreJob job_;
   const ClockDomain clock_;
   Phases phases_;
-  Fifos<Pass> passes_;                                    // [CCU]
+  Fifos<Pass> passes_;                                    // [CCU], or the culler's
+  Fifos<VisibleSlice> visible_;                           // [CCU], where there is a culler
   Fifos<Converted> converted_;                            // [CCU]
   Fifos<TileRequest> requests_;                           // [core]
   Fifos<TileJob> jobs_;                                   // [core]
   Fifos<SortedEntry> sorted_;                             // [core]
   Fifos<PassDone> done_;                                  // [core]
   std::vector<std::unique_ptr<FinishedTiles>> finished_;  // [core]
+  std::unique_ptr<ChunkCuller> culler_;                   // null: by Gaussians
   std::vector<std::unique_ptr<Ccu>> ccus_;
   TileLister lister_;
   std::vector<std::unique_ptr<TileSorter>> sorters_;    // [core]

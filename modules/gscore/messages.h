@@ -10,20 +10,41 @@
 
 namespace sgs::gscore {
 
-// Lister -> CCU: project the scene for tiles [first, end), row by row; or the frame is over.
+// Lister -> CCUs, or the culler ahead of them: project the scene for tiles [first, end), row by
+// row; or the frame is over.
 struct Pass {
   static constexpr std::uint32_t kSramBytes = 8;
   std::uint32_t first = 0, end = 0;
   bool over = false;
 };
 
+// Within the culler: a chunk whose box touches the frame, or the end of its pass, or of the frame.
+struct VisibleChunk {
+  static constexpr std::uint32_t kSramBytes = 7;  // first, count, marks
+  std::uint32_t first = 0, count = 0;
+  bool end_of_pass = false, over = false;
+};
+
+// Culler -> CCU: neighbours in memory to be projected, none where a pass has nothing else to end
+// with; or the frame is over.
+struct VisibleSlice {
+  static constexpr std::uint32_t kSramBytes = 6;  // first, count, marks
+  std::uint32_t first = 0, count = 0;
+  bool end_of_pass = false;  // the last one of its pass
+  bool over = false;
+};
+
 // Within a CCU: a Gaussian that may touch the frame, or the end of a slice whose last Gaussian
 // cannot.
 struct Candidate {
-  static constexpr std::uint32_t kSramBytes = 20;  // slot, centre, largest scale
-  bool there = false;                              // a Gaussian
-  bool last = false;                               // last of its slice
-  bool over = false;                               // no more slices
+  static constexpr std::uint32_t kSramBytes = 20;  // slot, centre, a word of the first half
+  static std::uint32_t sram_bytes(std::uint32_t carried_words) {
+    return kSramBytes + 4 * (carried_words - 1);
+  }
+  bool there = false;        // a Gaussian
+  bool last = false;         // last of its slice
+  bool end_of_pass = false;  // and that the last one of the pass
+  bool over = false;         // no more slices
   std::uint32_t slot = 0;
   SplitFirstHalf first{};
   std::uint64_t ticket = 0;  // read of the second half
@@ -34,6 +55,7 @@ struct Candidate {
 struct Converted {
   static constexpr std::uint32_t kSramBytes = 108;  // record, key, tiles, parts, box, its limits
   bool there = false, last = false;
+  bool end_of_pass = false;  // last of the last slice
   Splat splat{};
   TileBoxes boxes{};
 };

@@ -70,7 +70,7 @@ FlowPart cull_flow() {
   return whole(recorded);
 }
 
-FlowPart convert_flow(const TileRules& rules, int sh_degree, bool half_records) {
+FlowPart convert_flow(const TileRules& rules, const FineRecord& stored, bool half_records) {
   const auto recorded = std::make_shared<DataFlow>();
   DataFlow& flow = *recorded;
   const FilterCase of = longest_tile_case();
@@ -83,11 +83,12 @@ FlowPart convert_flow(const TileRules& rules, int sh_degree, bool half_records) 
   std::array<glm::vec<3, Counting>, 16> sh;
   for (auto& coefficient : sh) coefficient = input(flow, glm::vec3(1.0F));
   flow.pass_beside(kBesideTileWork);
+  if (stored.quaternion_words < g.quat.size()) restore_largest(flow, g.quat);
 
   SplatOf<Counting> s{};
   TileBoxesOf<Counting> boxes{};
   if (!make_tile_geometry(view, g, rules, s, boxes)) return whole(recorded);
-  add_colour(view, sh_degree, g.mean, sh.data(), s);
+  add_colour(view, stored.sh_degree, g.mean, sh.data(), s);
   keep(flow, {s.x, s.y});
   keep_box(flow, boxes);
   if (!half_records) {

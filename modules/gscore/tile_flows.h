@@ -2,6 +2,7 @@
 // them. Values of the camera are constants, as in modules/datapath/filter_flows.h.
 #pragma once
 
+#include "algorithm/memory/record_split.h"
 #include "algorithm/splat/tile_boxes.h"
 #include "modules/datapath/lane_steps.h"
 
@@ -10,9 +11,10 @@ namespace sgs::gscore {
 // Operations that drop a Gaussian that cannot touch the frame, counted for one that may.
 FlowPart cull_flow();
 
-// From a record to the screen, boxes, colour; with half_records rounded to the formats of its
-// record and key. Counts the longest way: a Gaussian whose box along its axes is asked.
-FlowPart convert_flow(const TileRules& rules, int sh_degree, bool half_records);
+// From a stored record to the screen, boxes, colour; with half_records rounded to the formats of
+// its projected record and key. Counts the longest way: a Gaussian whose box along its axes is
+// asked.
+FlowPart convert_flow(const TileRules& rules, const FineRecord& stored, bool half_records);
 
 // Tests so many neighbours in a row of tiles, and finds the next ones, by a box along the ellipse's
 // axes. The tester is the same where a Gaussian, or the machine, has no such box. Numbers for the

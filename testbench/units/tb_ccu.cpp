@@ -67,6 +67,7 @@ std::vector<Converted> expected_of(const TestScene& scene, const GscoreJob& job,
     const auto& g = cloud.gaussians[i];
     Converted made;
     made.last = i + 1 == end;
+    made.end_of_pass = i + 1 == cloud.size();
     const float scale_max = std::max({g.scale.x, g.scale.y, g.scale.z});
     made.there = may_touch_frame(job.view, sides, g.mean, scale_max) &&
                  make_tile_geometry(job.view, g, config.tiles.rules(), made.splat, made.boxes);
@@ -77,7 +78,7 @@ std::vector<Converted> expected_of(const TestScene& scene, const GscoreJob& job,
 }
 
 bool same(const Converted& a, const Converted& b) {
-  if (a.there != b.there || a.last != b.last) return false;
+  if (a.there != b.there || a.last != b.last || a.end_of_pass != b.end_of_pass) return false;
   if (!a.there) return true;
   const Splat &s = a.splat, &r = b.splat;
   const TileBoxes &p = a.boxes, &q = b.boxes;

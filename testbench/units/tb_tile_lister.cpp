@@ -252,6 +252,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
             add_tests(plan.gaussians[i], config, job, pass, tests);
             Converted next = plan.gaussians[i];
             next.last = i + 1 == std::min(first + size, plan.gaussians.size());
+            next.end_of_pass = i + 1 == plan.gaussians.size();
             if (next.there || next.last) converted[c]->push(next, activity);
             there += next.there ? 1 : 0;
             alone += next.last && !next.there ? 1 : 0;

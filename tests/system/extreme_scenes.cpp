@@ -47,7 +47,7 @@ std::vector<nlohmann::json> check_scene(const GaussianCloud& cloud,
                                         const std::vector<Camera>& cameras,
                                         const Arguments& voxels) {
   std::vector<nlohmann::json> views = check_machine("paper", cloud, cameras, voxels);
-  for (const char* machine : {"exact", "gscore", "gscore_lossless"}) {
+  for (const char* machine : {"exact", "gscore", "gscore_lossless_boxes"}) {
     for (nlohmann::json& view : check_machine(machine, cloud, cameras)) {
       views.push_back(std::move(view));
     }

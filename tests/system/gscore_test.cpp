@@ -40,6 +40,10 @@ const std::vector<GscoreVariant>& variants() {
       {"narrow memory", {"memory_port.max_outstanding=1", "dram.channels=1"}},
       {"finished parts are blended", {"rendering.skip_finished=false"}},
       {"second halves of 16 bits", {"storage.encoding=half"}},
+      {"chunks are culled", {"culling.by=chunk_boxes", "storage.chunk_gaussians=5"}},
+      {"chunks are culled in several passes, one node at a time",
+       {"culling.by=chunk_boxes", "culling.nodes_in_flight=1", "culling.nodes_in_test=1",
+        "culling.nodes_tested=1", "culling.test_lanes=3", "lists.tiles=5", "ccus=3"}},
   };
   return all;
 }
@@ -84,6 +88,9 @@ TEST_CASE("gscore: variants do what they are for") {
     throw std::logic_error(name);
   };
   CHECK(counter(view_of("passes over few tiles"), "lister", "passes") == 6);
+  const Json one_node = view_of("chunks are culled in several passes, one node at a time");
+  CHECK(counter(one_node, "lister", "passes") == 6);
+  CHECK(counter(one_node, "culler", "nodes") > 6);
   CHECK(counter(view_of("one line for all tiles"), "lister", "lines_displaced") > 0);
   CHECK(counter_of_all(view_of("lists split in memory"), "sorter", "lists_split") > 0);
   CHECK(counter_of_all(view_of("lists split on chip"), "sorter", "splits") > 0);
@@ -96,14 +103,27 @@ TEST_CASE("gscore: variants do what they are for") {
         counter_of_all(plain, "rendering", "blocks"));
 }
 
-TEST_CASE("gscore: the lossless preset gives the reference picture") {
+// In chunks of as many Gaussians the scene is stored in the order of gscore_lossless.
+TEST_CASE("gscore: the lossless presets give the reference picture, whatever is culled") {
+  std::uint64_t spared = 0;  // first halves
   for (const char* scene : {"builtin:object?n=3000", "builtin:outdoor?n=3000"}) {
     INFO(scene);
-    const Simulation simulation(
-        {scene, "--view", "all", "--size", "96x54", "--config", "gscore_lossless"});
-    simulation.check();
-    for (const Json& view : simulation.views()) CHECK(view["image"]["max_abs_error"] == 0.0);
+    const auto run = [&](const char* preset) {
+      return Simulation({scene, "--view", "all", "--size", "96x54", "--config", preset});
+    };
+    const Simulation plain = run("gscore_lossless"), boxes = run("gscore_lossless_boxes");
+    for (const Simulation* simulation : {&plain, &boxes}) {
+      simulation->check();
+      for (const Json& view : simulation->views()) CHECK(view["image"]["max_abs_error"] == 0.0);
+    }
+    for (std::size_t v = 0; v < plain.views().size(); ++v) {
+      CHECK(boxes.frame(v) == plain.frame(v));
+      const std::uint64_t read = total(boxes.views()[v], "first_halves");
+      CHECK(read <= total(plain.views()[v], "first_halves"));
+      spared += total(plain.views()[v], "first_halves") - read;
+    }
   }
+  CHECK(spared > 3000);
 }
 
 TEST_CASE("gscore: a real scene") {

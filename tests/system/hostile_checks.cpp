@@ -45,7 +45,8 @@ class HostileRun {
     ++totals_.cases;
     if (!case_.refused.empty()) return run_refused();
     check_against_double();
-    for (const char* machine : {"exact", "paper", "gscore", "gscore_lossless"}) simulate(machine);
+    for (const char* machine : {"exact", "paper", "gscore", "gscore_lossless_boxes"})
+      simulate(machine);
     pack();
     tune();
   }

@@ -35,6 +35,9 @@ void check_bytes(const Json& view) {
           entry * pairs + line * (lines + counter(view, "lister", "tiles")));
     CHECK(counter(view, "lister", "records") <= total(view, "converted") - total(view, "unseen"));
   }
+  if (view["config"]["culling"]["by"] == "chunk_boxes") {
+    CHECK(region_bytes(view, "chunk_table", "read") == 128 * counter(view, "culler", "nodes"));
+  }
   CHECK(region_bytes(view, "subsets", "write") >=
         entry * counter_of_all(view, "sorter", "entries_split"));
   const std::uint64_t pixel_bytes = view["config"]["framebuffer"] == "rgb32f" ? 12 : 3;
@@ -63,6 +66,9 @@ void check_phases(const Json& view) {
 // What one unit hands on the next receives.
 void check_flow(const Json& view) {
   CHECK(total(view, "first_halves") == total(view, "culled") + total(view, "second_halves"));
+  if (view["config"]["culling"]["by"] == "chunk_boxes") {
+    CHECK(total(view, "first_halves") == counter(view, "culler", "gaussians"));
+  }
   CHECK(total(view, "second_halves") == total(view, "converted"));
   CHECK(counter(view, "lister", "pairs") <= counter(view, "lister", "part_tests"));
   CHECK(counter(view, "lister", "part_tests") <= counter(view, "lister", "tile_tests"));

@@ -41,12 +41,13 @@ Ccu::Ccu(const sc_core::sc_module_name& name, std::uint32_t index, const UnitCon
       sides_(frame_sides(job_.view)),
       cull_path_(cull_pipeline(config_)),
       convert_path_(convert_pipeline(config_, job_.layout.sh_degree())),
+      first_bytes_(job_.layout.first_halves.record_bytes),
       second_bytes_(job_.layout.second_halves.record_bytes),
       load_("load", context.clock),
       cull_("cull", context.clock),
       fetch_("fetch", context.clock),
       convert_("convert", context.clock),
-      input_(std::size_t{config_.ccu.input_slots} * config_.ccu.slice_gaussians * kFirstHalfBytes),
+      input_(std::size_t{config_.ccu.input_slots} * config_.ccu.slice_gaussians * first_bytes_),
       second_halves_(std::size_t{config_.ccu.second_half_slots} * second_bytes_),
       slices_("slices", context.clock, config_.ccu.input_slots),
       free_input_("free_input", context.clock, config_.ccu.input_slots, 0),
@@ -66,13 +67,15 @@ Ccu::Ccu(const sc_core::sc_module_name& name, std::uint32_t index, const UnitCon
 
 std::byte* Ccu::input(std::uint32_t slot, std::uint32_t at) {
   return input_.data() +
-         (std::size_t{slot} * config_.ccu.slice_gaussians + at) * std::size_t{kFirstHalfBytes};
+         (std::size_t{slot} * config_.ccu.slice_gaussians + at) * std::size_t{first_bytes_};
 }
 
 void Ccu::run_load() {
   for (std::uint32_t s = 0; s < config_.ccu.input_slots; ++s) free_input_.push(s, load_);
-  for (Pass pass = passes->pop(load_); !pass.over; pass = passes->pop(load_)) {
-    load_pass();
+  if (config_.culls_chunks()) {
+    load_visible();
+  } else {
+    load_passes();
   }
   Slice over;
   over.over = true;
@@ -80,47 +83,49 @@ void Ccu::run_load() {
   load_.idles();
 }
 
-void Ccu::load_pass() {
-  const std::uint32_t count = job_.layout.gaussian_count(), size = config_.ccu.slice_gaussians;
-  for (std::uint64_t first = std::uint64_t{index_} * size; first < count;
-       first += std::uint64_t{config_.ccus} * size) {
+void Ccu::load_visible() {
+  for (VisibleSlice next = visible->pop(load_); !next.over; next = visible->pop(load_)) {
     Slice slice;
-    slice.first = static_cast<std::uint32_t>(first);
-    slice.count = std::min(size, count - slice.first);
-    slice.slot = free_input_.pop(load_, WaitFor::kRoom);
-    load_.work(1);
-    slice.ticket = start_read(first_memory, load_, job_.layout.first_halves.address(first),
-                              input(slice.slot, 0), slice.count * kFirstHalfBytes,
-                              job_.layout.first_halves.region);
-    counters_.first_halves += slice.count;
-    slices_.push(slice, load_);
+    slice.first = next.first;
+    slice.count = next.count;
+    slice.end_of_pass = next.end_of_pass;
+    load(slice);
   }
 }
 
-// The end of a slice goes with its last Gaussian, in its place if that is dropped.
+// Every pass its own slices of the scene.
+void Ccu::load_passes() {
+  const std::uint32_t count = job_.layout.gaussian_count(), size = config_.ccu.slice_gaussians;
+  for (Pass pass = passes->pop(load_); !pass.over; pass = passes->pop(load_)) {
+    for (std::uint64_t first = std::uint64_t{index_} * size; first < count;
+         first += std::uint64_t{config_.ccus} * size) {
+      Slice slice;
+      slice.first = static_cast<std::uint32_t>(first);
+      slice.count = std::min(size, count - slice.first);
+      slice.end_of_pass = slice.first + slice.count == count;
+      load(slice);
+    }
+  }
+}
+
+void Ccu::load(Slice slice) {
+  slice.slot = free_input_.pop(load_, WaitFor::kRoom);
+  load_.work(1);
+  if (slice.count > 0) {
+    slice.ticket = start_read(first_memory, load_, job_.layout.first_halves.address(slice.first),
+                              input(slice.slot, 0), slice.count * first_bytes_,
+                              job_.layout.first_halves.region);
+  }
+  counters_.first_halves += slice.count;
+  slices_.push(slice, load_);
+}
+
 void Ccu::run_cull() {
-  const std::uint64_t interval = cull_path_.interval_cycles();
   for (Slice slice = slices_.pop(cull_); !slice.over; slice = slices_.pop(cull_)) {
-    await(first_memory, cull_, slice.ticket);
-    for (std::uint32_t i = 0; i < slice.count; ++i) {
-      culled_places_.wait_for_one(culled_, cull_);
-      wait_for_turn(cull_, interval);
-      const std::uint64_t began = cull_.clock().now_cycles();
-      cull_.work(1);
-      Candidate candidate;
-      candidate.slot = slice.first + i;
-      candidate.first = read_first_half(job_.layout.split, input(slice.slot, i));
-      candidate.there = may_touch_frame(job_.view, sides_, candidate.first.mean,
-                                        candidate.first.extents.scale_max);
-      candidate.last = i + 1 == slice.count;
-      counters_.culled += candidate.there ? 0 : 1;
-      if (candidate.there || candidate.last) {
-        culled_.push(candidate, cull_);
-      } else {
-        culled_places_.add(began);
-      }
-      if (candidate.last) free_input_.push(slice.slot, cull_);
-      cull_.work(interval - 1);
+    if (slice.count > 0) {
+      cull(slice);
+    } else {
+      pass_on_empty(slice);
     }
   }
   Candidate over;
@@ -128,6 +133,44 @@ void Ccu::run_cull() {
   cull_.work(1);
   culled_.push(over, cull_);
   cull_.idles();
+}
+
+// The end of a slice goes with its last Gaussian, in its place if that is dropped.
+void Ccu::cull(const Slice& slice) {
+  const std::uint64_t interval = cull_path_.interval_cycles();
+  await(first_memory, cull_, slice.ticket);
+  for (std::uint32_t i = 0; i < slice.count; ++i) {
+    culled_places_.wait_for_one(culled_, cull_);
+    wait_for_turn(cull_, interval);
+    const std::uint64_t began = cull_.clock().now_cycles();
+    cull_.work(1);
+    Candidate candidate;
+    candidate.slot = slice.first + i;
+    candidate.first = read_first_half(job_.layout.split, input(slice.slot, i));
+    candidate.there =
+        may_touch_frame(job_.view, sides_, candidate.first.mean, candidate.first.extents.scale_max);
+    candidate.last = i + 1 == slice.count;
+    candidate.end_of_pass = candidate.last && slice.end_of_pass;
+    counters_.culled += candidate.there ? 0 : 1;
+    if (candidate.there || candidate.last) {
+      culled_.push(candidate, cull_);
+    } else {
+      culled_places_.add(began);
+    }
+    if (candidate.last) free_input_.push(slice.slot, cull_);
+    cull_.work(interval - 1);
+  }
+}
+
+// Nothing but the end of a pass.
+void Ccu::pass_on_empty(const Slice& slice) {
+  culled_places_.wait_for_one(culled_, cull_);
+  cull_.work(1);
+  Candidate end;
+  end.last = true;
+  end.end_of_pass = slice.end_of_pass;
+  culled_.push(end, cull_);
+  free_input_.push(slice.slot, cull_);
 }
 
 void Ccu::run_fetch() {
@@ -187,10 +230,11 @@ void Ccu::run_convert() {
 
 // Passes on the end of a slice whose last Gaussian was dropped; there is a place for it.
 void Ccu::pass_end() {
-  fetched_.remove_front();
-  convert_.work(1);
   Converted end;
   end.last = true;
+  end.end_of_pass = fetched_.front(convert_).end_of_pass;
+  fetched_.remove_front();
+  convert_.work(1);
   converted->push(end, convert_);
 }
 
@@ -214,6 +258,7 @@ void Ccu::convert() {
   convert_.work(1);
   Converted out;
   out.last = candidate.last;
+  out.end_of_pass = candidate.end_of_pass;
   out.there =
       make_tile_geometry(job_.view, g.gaussian, config_.tiles.rules(), out.splat, out.boxes);
   if (out.there) {
@@ -259,22 +304,25 @@ bool Ccu::comes_before(std::uint64_t cycle) {
 SramUses Ccu::sram_uses(const GscoreConfig& config) {
   const CcuConfig& c = config.ccu;
   const Datapath cull = cull_pipeline(config);
+  const std::uint32_t first_bytes = config.first_half_bytes();
+  const std::uint32_t candidate_bytes = Candidate::sram_bytes(config.carried_words());
   // First halves that come from memory in a cycle, of one read: so many banks take them.
-  const std::uint32_t come = std::min(
-      static_cast<std::uint32_t>(cycles_for(kPortBytes, kFirstHalfBytes)), c.slice_gaussians);
+  const std::uint32_t come =
+      std::min(static_cast<std::uint32_t>(cycles_for(kPortBytes, first_bytes)), c.slice_gaussians);
   SramUses uses = {
       sram_use(kInput, kBuffer,
-               {{c.input_slots, "slots"}, {c.slice_gaussians, "Gaussians"}, {kFirstHalfBytes, "B"}},
-               {8 * kFirstHalfBytes, SramPorts::kReadAndWrite, come}, {1, come}),
+               {{c.input_slots, "slots"}, {c.slice_gaussians, "Gaussians"}, {first_bytes, "B"}},
+               {8 * first_bytes, SramPorts::kReadAndWrite, come}, {1, come}),
       sram_use(kSecondHalves, kBuffer,
                {{c.second_half_slots, "slots"}, {most_second_half_bytes(), "B"}}, {8 * kPortBytes},
                kOneOfEach),
       fifo_use<Slice>(kSlices, kBuffer, c.input_slots, "slices"),
-      fifo_use<Candidate>(kCulled, kBuffer, candidates_of(config, cull), "candidates"),
-      sram_use(kGathered, kBuffer,
-               {{c.slice_gaussians, "candidates"}, {Candidate::kSramBytes, "B"}},
-               {8 * Candidate::kSramBytes}, kOneOfEach),
-      fifo_use<Candidate>(kFetched, kBuffer, c.second_half_slots + 1, "candidates")};
+      fifo_use<Candidate>(kCulled, kBuffer, candidates_of(config, cull), "candidates",
+                          candidate_bytes),
+      sram_use(kGathered, kBuffer, {{c.slice_gaussians, "candidates"}, {candidate_bytes, "B"}},
+               {8 * candidate_bytes}, kOneOfEach),
+      fifo_use<Candidate>(kFetched, kBuffer, c.second_half_slots + 1, "candidates",
+                          candidate_bytes)};
   add(uses, outstanding_table(kBuffer, config.memory_port), 2);
   return uses;
 }

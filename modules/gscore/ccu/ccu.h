@@ -1,9 +1,9 @@
-// Culling and conversion unit. It fetches the first halves of its share of the scene and drops
-// Gaussians that cannot touch the frame. It fetches the second halves of the others, projects and
-// colours them, and finds the boxes that say which tiles they may touch.
-// Timing: both datapaths begin an item in their turns, where it has a place behind their pipelines;
-// ends of slices pass beside the lanes; slices in turn over the CCUs.
-// Function: may_touch_frame(), make_tile_geometry().
+// Culling and conversion unit. It fetches the first halves of its share of the scene, or of the
+// slices that the culler hands it, and drops Gaussians that cannot touch the frame. It fetches the
+// second halves of the others, projects and colours them, and finds the boxes that say which tiles
+// they may touch. Timing: both datapaths begin an item in their turns, where it has a place behind
+// their pipelines; ends of slices pass beside the lanes; slices in turn over the CCUs. Function:
+// may_touch_frame(), make_tile_geometry().
 #pragma once
 
 #include <cstddef>
@@ -23,12 +23,14 @@ namespace sgs::gscore {
 
 class Ccu : public sc_core::sc_module {
  public:
-  FifoIn<Pass> passes{"passes"};
+  // The one or the other, by config.culling.
+  sc_core::sc_port<FifoReadIf<Pass>, 1, sc_core::SC_ZERO_OR_MORE_BOUND> passes{"passes"};
+  sc_core::sc_port<FifoReadIf<VisibleSlice>, 1, sc_core::SC_ZERO_OR_MORE_BOUND> visible{"visible"};
   FifoOut<Converted> converted{"converted"};
   MemoryPort first_memory, second_memory;  // first halves, second halves
 
   SC_HAS_PROCESS(Ccu);
-  // index: of all CCUs: slice s belongs to CCU s mod config.ccus.
+  // index: of all CCUs: slice s of the scene belongs to CCU s mod config.ccus.
   Ccu(const sc_core::sc_module_name& name, std::uint32_t index, const UnitContext& context);
 
   struct Counters : CounterSet {
@@ -46,9 +48,9 @@ class Ccu : public sc_core::sc_module {
 
  private:
   struct Slice {
-    static constexpr std::uint32_t kSramBytes = 8;  // first, count
+    static constexpr std::uint32_t kSramBytes = 8;  // first, count, marks
     std::uint32_t first = 0, count = 0, slot = 0;
-    bool over = false;
+    bool end_of_pass = false, over = false;
     std::uint64_t ticket = 0;
   };
 
@@ -57,7 +59,11 @@ class Ccu : public sc_core::sc_module {
   void run_fetch();    // thread
   void run_convert();  // thread
 
-  void load_pass();
+  void load_passes();
+  void load_visible();
+  void load(Slice slice);
+  void cull(const Slice& slice);
+  void pass_on_empty(const Slice& slice);
   // Asks for the second halves of neighbours at once, from the candidate `first` of a slice on;
   // returns where the next ones begin.
   std::size_t fetch_run(std::vector<Candidate>& slice, std::size_t first);
@@ -72,7 +78,7 @@ class Ccu : public sc_core::sc_module {
   const GscoreJob& job_;
   const FrameSides<float> sides_;
   const Datapath cull_path_, convert_path_;
-  const std::uint32_t second_bytes_;
+  const std::uint32_t first_bytes_, second_bytes_;
   Activity load_, cull_, fetch_, convert_;
   std::vector<std::byte> input_, second_halves_;
   TimedFifo<Slice> slices_;

@@ -7,14 +7,15 @@
 namespace sgs::gscore {
 
 void TileLister::run_test() {
-  const std::uint64_t slices =
-      cycles_for(job_.layout.gaussian_count(), config_.ccu.slice_gaussians);
+  const bool empty = job_.layout.gaussian_count() == 0;
   for (Pass pass = test_passes_.pop(test_); !pass.over; pass = test_passes_.pop(test_)) {
-    for (std::uint64_t s = 0; s < slices; ++s) {
+    bool end_of_pass = empty;
+    for (std::uint64_t s = 0; !end_of_pass; ++s) {
       FifoReadIf<Converted>& ccu = in_turn(converted, s);
       for (bool last = false; !last;) {
         const Converted next = ccu.pop(test_);
         last = next.last;
+        end_of_pass = next.end_of_pass;
         if (next.there) {
           test_tiles(next, pass);
         } else {

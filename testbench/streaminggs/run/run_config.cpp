@@ -203,11 +203,9 @@ void visit(ConfigVisitor& v, RunConfig& c) {
   for (const MachineKind& kind : *c.kinds) names.push_back(kind.name);
   const std::size_t before = c.kind;
   v.choice("machine", c.kind, names, "which accelerator; its keys stand beside this one");
-  if (!c.design || c.kind != before) {
-    c.design = (*c.kinds)[c.kind].design();
-    c.storage.order = c.design->storage_order();
-  }
+  if (!c.design || c.kind != before) c.design = (*c.kinds)[c.kind].design();
   c.design->visit(v);
+  c.storage.order = c.design->storage_order();
   v.section("storage", c.storage, "how the scene is stored");
   v.section("dram", c.dram, "memory");
 }
@@ -228,7 +226,9 @@ RunConfig read_run_config(const ConfigDocument& document, const std::vector<Mach
   try {
     document.read_into(config);
   } catch (const UnknownKey& error) {
-    const std::vector<std::string> others = kinds_with(error.path, kinds);
+    std::vector<std::string> others = kinds_with(error.path, kinds);
+    // A key that its own machine would have by other keys is just unknown.
+    others.erase(std::remove(others.begin(), others.end(), config.machine()), others.end());
     if (others.empty()) throw;
     throw InputError(fmt::format("{}; it is a key of machine {}, not of {}", error.what(),
                                  join(others, " and "), config.machine()));

@@ -1,6 +1,6 @@
 // The front-to-back walk over the chunk tree, against brute force over all of its nodes, with
 // queues that hold everything and queues that hold almost nothing, with nodes opened as they are
-// needed and ahead of need in any order.
+// needed and ahead of need in any order; and the descent in storage order.
 #include "algorithm/order/chunk_walk.h"
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <random>
 #include <tuple>
 
+#include "algorithm/order/chunk_descent.h"
 #include "algorithm/render/group_state.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/voxel/chunk_tree.h"
@@ -161,6 +162,27 @@ TEST_CASE("walk: nodes opened ahead and in any order, and two walks at a time, c
   CHECK(two_walks > 1000);
   CHECK(put_aside > 10000);
   CHECK(left > 100);
+}
+
+TEST_CASE("descent: the chunks that touch, in storage order") {
+  std::uint64_t visited = 0;
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    const Scene scene = make_scene(seed, seed * 41 % 900, 1 + seed % 8);
+    for (const PixelRect& group : scene.groups) {
+      std::vector<std::pair<std::uint32_t, std::uint32_t>> expected, got;  // slot, count
+      for (const auto& [nearest, slot, count] : expected_chunks(scene.view, scene.tree, group)) {
+        expected.emplace_back(slot, count);
+      }
+      std::sort(expected.begin(), expected.end());
+      for_each_touching_chunk(
+          scene.tree, scene.view, group,
+          [&](std::uint32_t slot, std::uint32_t count) { got.emplace_back(slot, count); });
+      const bool equal = got == expected;
+      REQUIRE(equal);
+      visited += got.size();
+    }
+  }
+  CHECK(visited > 10000);
 }
 
 TEST_CASE("walk queue: both ends, against a sorted list") {

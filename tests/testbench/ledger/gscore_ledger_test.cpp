@@ -182,6 +182,16 @@ std::vector<Row> rows_of(const Frame& frame, const Build& b) {
        blocks * (b.loop + 1 + kNext) + b.pixel_bits * of(frame, "rendering", "pixels")}};
 }
 
+void check_rows(const Frame& frame, const std::vector<Row>& rows) {
+  for (const Row& row : rows) {
+    INFO(row.component << " " << row.kind);
+    const Stands all = in_ledger(frame.result.machine, row.component, row.kind);
+    const Stands lanes = of_lanes(frame.result.machine, row.component, row.kind);
+    CHECK(all.parts - lanes.parts == row.parts);
+    CHECK(all.done - lanes.done == row.done);
+  }
+}
+
 TEST_CASE("ledger: gscore is charged for what its units are said to hold and do") {
   for (const Build& build : builds()) {
     INFO(build.name);
@@ -192,18 +202,30 @@ TEST_CASE("ledger: gscore is charged for what its units are said to hold and do"
       INFO(name);
       CHECK(counter(frame, name) > 0);
     }
-    for (const Row& row : rows_of(frame, build)) {
-      INFO(row.component << " " << row.kind);
-      const Stands all = in_ledger(frame.result.machine, row.component, row.kind);
-      const Stands lanes = of_lanes(frame.result.machine, row.component, row.kind);
-      CHECK(all.parts - lanes.parts == row.parts);
-      CHECK(all.done - lanes.done == row.done);
-    }
+    check_rows(frame, rows_of(frame, build));
   }
 }
 
+TEST_CASE("ledger: gscore is charged for what its culler is said to hold and do") {
+  const Frame frame =
+      simulated("gscore_lossless_boxes", {"culling.nodes_tested=6"}, "builtin:outdoor?n=3000");
+  check_paid(frame);
+  const auto culled = [&](const char* name) { return of(frame, "culler", name); };
+  const double nodes = culled("nodes"), chunks = culled("chunks");
+  CHECK(nodes > 10);
+  // Numbers of nodes that have been tested are compared with that of the next one, and first slots
+  // in a tree; a chunk joins a run, which ends a slice. First and end of the run; a slice that
+  // waits.
+  constexpr double kRun = 2 * 32, kSlice = 8 * 6;
+  const double looked = double(accesses(frame, "keys of tested nodes").reads) / 6 - nodes;
+  check_rows(frame, {{"culler", "comparator", 6 + 5 + 2, 6 * nodes + 5 * looked + 2 * chunks},
+                     {"culler", "register_bit", kRun + kSlice,
+                      kRun * chunks + kSlice * culled("slices")}});
+  CHECK(double(items(frame, "chunk_test")) == culled("tests"));
+}
+
 TEST_CASE("ledger: gscore's smallest memories hold what an access of them takes") {
-  for (const char* preset : {"gscore", "gscore_lossless"}) {
+  for (const char* preset : {"gscore", "gscore_lossless_boxes"}) {
     INFO(preset);
     check_paid(simulated(preset,
                          {"ccu.slice_gaussians=1", "ccu.input_slots=1", "ccu.candidates=1",

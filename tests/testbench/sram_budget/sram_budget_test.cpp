@@ -85,7 +85,7 @@ TEST_CASE("sram budget: units publish what the configuration was checked with, q
   for (const char* preset :
        {"exact", "exact_fast", "exact_fp16", "exact_wide", "exact_half", "exact_vq",
         "exact_vq_packed", "paper", "paper_no_vq", "paper_no_cgf", "paper_no_vq_cgf", "paper_text",
-        "paper_ideal", "gscore", "gscore_fp32_keys", "gscore_lossless"}) {
+        "paper_ideal", "gscore", "gscore_fp32_keys", "gscore_lossless", "gscore_lossless_boxes"}) {
     check_sums(preset, {});
   }
 }

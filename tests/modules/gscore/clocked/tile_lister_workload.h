@@ -67,7 +67,8 @@ inline ConvertedScene converted_of(const ListerWorkload& load, std::uint64_t see
     Converted next;
     next.there = make_tile_geometry(scene.job.view, scene.cloud.gaussians[i], config.tiles.rules(),
                                     next.splat, next.boxes);
-    next.last = (i + 1) % size == 0 || i + 1 == scene.cloud.size();
+    next.end_of_pass = i + 1 == scene.cloud.size();
+    next.last = (i + 1) % size == 0 || next.end_of_pass;
     if (next.there || next.last) out.ccus[i / size % load.ccus].push_back(next);
   }
   return out;
