@@ -94,7 +94,7 @@ def machine_axes(
     # Of a run of its own, since what is swept keeps no schedules.
     run = Run(SMALL, size=SMALL_SIZE, config=arguments.config, overrides=own)
     (view,) = simulate(kept.binary, run).accepted()
-    return order.with_blend(view["datapath"]["subtile_blend"]["used"]["macs"]).axes, order.fixed
+    return order.with_blend(view["datapath"][order.blend]["used"]["macs"]).axes, order.fixed
 
 
 def config_of(arguments: argparse.Namespace, kept: SweepServer) -> dict:

@@ -36,9 +36,9 @@ AT_MOST = "frames/s at most, overlapped"
 WISHED_FPS = 90
 # What the ratios show: pairs of one precision, and the one that is published.
 PAIRS = (
-    ("exact_fast", "gscore_lossless"),
-    ("exact", "gscore_lossless"),
-    ("exact_fp16", "gscore_fp32_keys"),
+    ("exact_fast", "gscore_lossless_boxes"),
+    ("exact", "gscore_lossless_boxes"),
+    ("exact_fp16", "gscore_boxes"),
     ("paper", "gscore"),
 )
 CIRCLES = {

@@ -16,7 +16,7 @@ from runs.simulations import GROUP, GROUP_KEYS, expanded, group_assignments
 Assignments = tuple[str, ...]
 # How many there are of what other axes make larger, and what excludes what: a step on another axis
 # takes about the same area wherever these are alike.
-STRUCTURE = ("hfus", "fetch", "rendering.clusters")
+STRUCTURE = ("hfus", "fetch", "rendering.clusters", "ccus", "cores")
 # KEY@SCENE=VALUE holds for one scene, such as how it is stored; KEY@each=... is an axis for each.
 EACH = "each"
 
@@ -76,17 +76,20 @@ def axis(key: str, *values: object) -> Axis:
 
 @dataclasses.dataclass(frozen=True)
 class Order:
-    """A preset with the axes of its machine, and what is the same in all of these."""
+    """A preset with the axes of its machine, and what is the same in all of these. blend: the
+    datapath that blends, on lanes of the axis blend_lanes."""
 
     name: str
     preset: str
     fixed: Assignments
     axes: tuple[Axis, ...]
+    blend: str = "subtile_blend"
+    blend_lanes: str = "rendering.cluster_lanes"
 
     def with_blend(self, macs: int) -> Order:
-        """With as many lanes in a cluster as blend a sub-tile in 8, 6, ... 1 cycles; what lies
-        between would be idle."""
-        lanes = axis("rendering.cluster_lanes", *(-(-macs // n) for n in (8, 6, 4, 3, 2, 1)))
+        """With as many lanes as blend 4 x 4 pixels in 8, 6, ... 1 cycles; what lies between would
+        be idle."""
+        lanes = axis(self.blend_lanes, *(-(-macs // n) for n in (8, 6, 4, 3, 2, 1)))
         return dataclasses.replace(
             self, axes=tuple(lanes if a.name == lanes.name else a for a in self.axes)
         )
@@ -187,7 +190,38 @@ PAPER = Order(
         *COMMON,
     ),
 )
-ORDERS = {order.name: order for order in (EXACT, PAPER)}
+
+# The lists take what the memory leaves, so that its size is an axis.
+TILES = Order(
+    "gscore",
+    "gscore_lossless_boxes",
+    ("storage.encoding=raw",),
+    (
+        axis("ccus", 2, 3, 4, 6, 8),
+        axis("cores", 2, 3, 4, 5, 6, 8),
+        axis("sram.buffer_bytes", 174080, 208896, 243712, 278528, 348160),
+        axis("culling.test_lanes", 6, 8, 10, 12, 16, 32),
+        axis("culling.nodes_tested", 8, 16, 32, 64),
+        axis("culling.nodes_in_flight", 2, 4, 8),
+        axis("culling.nodes_in_test", 2, 4, 8),
+        axis("ccu.cull_lanes", 1, 2, 3, 4, 8, 12, 24),
+        axis("ccu.convert_lanes", 8, 12, 18, 24, 36, 48),
+        axis("ccu.slice_gaussians", 4, 8, 16, 32),
+        axis("ccu.input_slots", 2, 4, 8),
+        axis("ccu.second_half_slots", 8, 16, 24, 32, 48),
+        axis("lists.tile_lanes", 10, 20, 40),
+        axis("lists.part_lanes", 12, 24, 48),
+        axis("lists.line_bytes", 32, 64, 128),
+        axis("sorting.list_buffers", 1, 2, 3),
+        axis("rendering.core_lanes", 94),
+        axis("rendering.sorted_entries", 64, 128, 256),
+        axis("rendering.record_slots", 24, 48, 64, 96, 128),
+        axis("rendering.drain_pixels_per_cycle", 1, 2, 4),
+        axis("memory_port.max_outstanding", 16, 32, 48, 64),
+    ),
+    *("blend", "rendering.core_lanes"),
+)
+ORDERS = {order.name: order for order in (EXACT, PAPER, TILES)}
 
 
 At = tuple[int, ...]  # for each axis the number of its setting

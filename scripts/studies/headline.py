@@ -50,9 +50,9 @@ ALONE = Frames("alone, 25.6 GB/s", 4, "25.6", "times as fast", "times less energ
 OVERLAPPED = Frames("overlapped, 51.2 GB/s", 8, "51.2", "both overlapped")
 # From CASES: what both pictures of a pair are.
 PICTURES: Mapping[Pair, str] = {
-    ("exact_fast", "gscore_lossless"): "both: the reference picture",
-    ("exact", "gscore_lossless"): "both: the reference picture",
-    ("exact_fp16", "gscore_fp32_keys"): "both: in half precision",
+    ("exact_fast", "gscore_lossless_boxes"): "both: the reference picture",
+    ("exact", "gscore_lossless_boxes"): "both: the reference picture",
+    ("exact_fp16", "gscore_boxes"): "both: in half precision",
 }
 # From TUNED: both have codebooks, each of a scene that was tuned to it.
 TUNED_PAIR = ("exact_vq", "paper")

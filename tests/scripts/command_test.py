@@ -164,7 +164,7 @@ class WithTheCommand(InFolder):
     @nightly
     def test_figures_are_drawn_from_the_tables(self):
         small = ("--sizes", "64x36", "--object-sizes", "64x36", "--channels", "4", "--view", "0")
-        machines = ("--machines", "gscore_fp32_keys", "exact_fp16")
+        machines = ("--machines", "gscore_boxes", "exact_fp16")
         self.made(COMPARE_MACHINES, *small, *machines)
         drawn = sorted(self.folder.glob("*.svg"))
         names = ["compare_machines_rates", "compare_machines_ratios", "compare_machines_traffic"]

@@ -359,6 +359,11 @@ class Recipes(InFolder):
     def test_the_best_of_paper_order_in_an_area(self):
         self.check("paper_in_area", "0", [], *self.FREE, "storage.voxel_size@each=1,2")
 
+    @nightly
+    def test_the_best_tile_centric_one_in_an_area(self):
+        free = ("ccus=2,4", "cores=3,4", "ccu.convert_lanes=12,18")
+        self.check("gscore_in_area", "0", [], *free, "storage.chunk_gaussians@each=8,16")
+
     def test_what_is_no_recipe(self):
         path = self.folder / "mine.json"
         for text, said in (
