@@ -52,15 +52,18 @@ module heap_node #(
   assign side = inserts ? with_room : filling;
   assign goes_on = inserts ? held >= TWO : held > TWO;
   assign held_below = side ? below_right : below_left;
-  wire [KEY_BITS-1:0] rising = side ? right_end : left_end;
-
   wire is_first = held == 0, is_second = held == 1;
   assign writes = inserts | goes_on | (held == TWO & ~at_high);
-  assign new_low = inserts ? (is_first | is_nearer ? key : low) :
-      ~goes_on ? high : at_high ? low : rising;
-  assign new_high = inserts ? (is_second ? (is_nearer ? low : key) : is_farther ? key : high) :
-      goes_on & at_high ? rising : high;
-  assign sinking = is_nearer ? low : is_farther ? high : key;
+
+  // The key that comes, inserted or into the hole; with no key below, the high one to the low end.
+  wire [KEY_BITS-1:0] coming = inserts ? key : ~goes_on ? high : side ? right_end : left_end;
+  wire takes_low = inserts ? is_first | is_nearer : ~at_high | ~goes_on;
+  assign new_low = takes_low ? coming : low;
+  // An insert's key or what it displaced goes to the high end or on.
+  wire [KEY_BITS-1:0] displaced = inserts & is_nearer ? low : coming;
+  wire takes_high = inserts ? is_second | is_farther : at_high & goes_on;
+  assign new_high = takes_high ? displaced : high;
+  assign sinking = is_farther ? high : displaced;
 
   wire [COUNT_BITS-1:0] changed = inserts ? held_below + ONE : held_below - ONE;
   wire empties = inserts & is_first;

@@ -137,7 +137,7 @@ class Recorder {
   }
 
   void blend(const Gaussian<float>& g, GroupState& state) const {
-    Splat splat;
+    Splat splat{};
     if (make_geometry(view_, g, splat) && reaches_group(splat, state.pixels())) state.blend(splat);
   }
 
