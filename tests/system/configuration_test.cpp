@@ -212,7 +212,7 @@ TEST_CASE("configuration: the memory's interface is of a memory that is named") 
             3,
             "LPDDR3's value",
             "\nlpddr4_3200_8gb: PHY and controller are not known, lpddr3_1600's are counted by "
-            "peak bandwidth; I/O 3 pJ/bit: own choice (low confidence): LPDDR3's value"},
+            "peak bandwidth; I/O 3 (2 .. 4) pJ/bit: own choice (low confidence): LPDDR3's value"},
         Row{{"dram.io_pj_per_bit=0.5"}, 0.5, "dram.io_pj_per_bit", ""}}) {
     INFO(settings[0]);
     const ScratchFolder scratch;
@@ -226,6 +226,10 @@ TEST_CASE("configuration: the memory's interface is of a memory that is named") 
     CHECK(interface["area_of"] == "lpddr3_1600");
     CHECK(interface["area_known"] == (*says == '\0'));
     CHECK(interface["io_pj_per_bit"] == pj);
+    // A number that is given has no band, the memspec's has that of LPDDR3.
+    const bool given = *says == '\0';
+    CHECK(interface["io_pj_per_bit_low"] == (given ? pj : 2));
+    CHECK(interface["io_pj_per_bit_high"] == (given ? pj : 4));
     CHECK_THAT(interface["io_source"].get<std::string>(), Contains(source));
   }
 }
@@ -370,7 +374,7 @@ TEST_CASE("configuration: what describe lists of report.json is what reports hol
   std::set<std::string> paths;
   for (const Arguments& run :
        {joined(scene, {"--config", "paper", "--set", "storage.vq.iterations=1", "--set",
-                       "stated_area_mm2=5"}),
+                       "stated_area_mm2=5", "--frame-rate", "90"}),
         Arguments{scratch.path("scene.ply"), "--cameras", scratch.path("cameras.json"), "--size",
                   "64x36", "--scene-axes", "rub"},
         joined(scene, {"--config", "gscore"}),
