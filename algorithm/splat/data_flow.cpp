@@ -2,7 +2,9 @@
 #include "algorithm/splat/data_flow.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace sgs {
 namespace {
@@ -31,6 +33,66 @@ bool commutes(Operation operation) {
   return operation == Operation::kMultiply || operation == Operation::kAdd ||
          operation == Operation::kCompare || operation == Operation::kAddIndex;
 }
+
+// Sums in their order, each to one of its products that has none: to a lone one, since no other
+// sum takes that, else to the later one.
+class Pairing {
+ public:
+  Pairing(const std::vector<DataFlow::Node>& nodes, std::size_t first, std::size_t last)
+      : nodes_(nodes),
+        first_(first),
+        product_of_(last - first),
+        waits_for_(last - first),
+        seen_by_(last - first) {}
+
+  std::vector<std::optional<std::uint32_t>> run() {
+    for (std::size_t i = 0; i < product_of_.size(); ++i) {
+      const DataFlow::Node& sum = nodes_[first_ + i];
+      if (sum.operation != Operation::kAdd && sum.operation != Operation::kSubtract) continue;
+      const bool prefers_a = rank(sum.a) > rank(sum.b);
+      const DataFlow::Operand better = prefers_a ? sum.a : sum.b, other = prefers_a ? sum.b : sum.a;
+      if (!pair(i, better, other)) pair(i, other, better);
+    }
+    return std::move(product_of_);
+  }
+
+ private:
+  std::pair<bool, std::uint32_t> rank(DataFlow::Operand operand) const {
+    return {!operand.is_constant && nodes_[operand.of].uses == 1, operand.of};
+  }
+  bool is_inside(DataFlow::Operand operand) const {
+    return !operand.is_constant && operand.of >= first_ && operand.of < first_ + waits_for_.size();
+  }
+
+  bool pair(std::size_t sum, DataFlow::Operand product, DataFlow::Operand addend) {
+    if (!is_inside(product) || nodes_[product.of].operation != Operation::kMultiply) return false;
+    std::optional<DataFlow::Operand>& waits_for = waits_for_[product.of - first_];
+    ++search_;
+    if (waits_for || depends(addend, product.of)) return false;
+    waits_for = addend;
+    product_of_[sum] = product.of;
+    return true;
+  }
+
+  // True if `operand` is computed from `node`, or waits for it.
+  bool depends(DataFlow::Operand operand, std::uint32_t node) {
+    if (!is_inside(operand)) return false;
+    if (operand.of == node) return true;
+    std::uint32_t& seen_by = seen_by_[operand.of - first_];
+    if (seen_by == search_) return false;
+    seen_by = search_;
+    const DataFlow::Node& of = nodes_[operand.of];
+    const std::optional<DataFlow::Operand>& waits_for = waits_for_[operand.of - first_];
+    return (waits_for && depends(*waits_for, node)) || depends(of.a, node) || depends(of.b, node);
+  }
+
+  const std::vector<DataFlow::Node>& nodes_;
+  const std::size_t first_;
+  std::vector<std::optional<std::uint32_t>> product_of_;     // [sum]
+  std::vector<std::optional<DataFlow::Operand>> waits_for_;  // [product]: what is added to it
+  std::vector<std::uint32_t> seen_by_;                       // [node]: the last search
+  std::uint32_t search_ = 0;
+};
 
 }  // namespace
 
@@ -65,11 +127,17 @@ std::uint32_t DataFlow::first_division_by(Operand divisor) const {
 
 bool DataFlow::is_lone_product(Operand operand) const {
   return !operand.is_constant && nodes_[operand.of].operation == Operation::kMultiply &&
-         nodes_[operand.of].uses == 1;
+         nodes_[operand.of].uses == 1 && !nodes_[operand.of].kept;
+}
+
+std::vector<std::optional<std::uint32_t>> DataFlow::products_of_sums(std::size_t first,
+                                                                     std::size_t last) const {
+  return Pairing(nodes_, first, last).run();
 }
 
 OperationCounts DataFlow::counts(std::size_t first, std::size_t last) const {
   OperationCounts c;
+  const auto products = products_of_sums(first, last);
   for (std::size_t i = first; i < last; ++i) {
     const Node& node = nodes_[i];
     switch (node.operation) {
@@ -85,7 +153,7 @@ OperationCounts DataFlow::counts(std::size_t first, std::size_t last) const {
       case Operation::kAdd:
       case Operation::kSubtract:
         ++c.adds;
-        if (is_lone_product(node.a) || is_lone_product(node.b)) ++c.fused;
+        if (products[i - first]) ++c.fused;
         break;
       case Operation::kDivide:
         ++c.divisions;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -45,7 +46,7 @@ enum class Operation : std::uint8_t {
 struct OperationCounts {
   std::uint32_t multiplies = 0;
   std::uint32_t adds = 0;       // and subtractions
-  std::uint32_t fused = 0;      // adds of a product that nothing else takes: one step with it
+  std::uint32_t fused = 0;      // adds in one step with a product that they take
   std::uint32_t divisions = 0;  // quotients; by a constant power of two they are multiplies
   std::uint32_t divisors = 0;   // different ones among them
   std::uint32_t square_roots = 0;
@@ -92,11 +93,16 @@ class DataFlow {
 
   std::size_t size() const { return nodes_.size(); }
   const std::vector<Node>& nodes() const { return nodes_; }
-  // A product that one operation takes, once.
+  // A product that one operation takes, once, and nothing else.
   bool is_lone_product(Operand operand) const;
 
-  // Operations among nodes [first, last). A sum fuses with a product only if nothing in the whole
-  // graph takes the product a second time.
+  // [node - first]: of a sum among nodes [first, last) the product that it takes in one step with
+  // it, if any. A step gives its product and one sum. So the product waits for what is added, which
+  // must not wait for the product.
+  std::vector<std::optional<std::uint32_t>> products_of_sums(std::size_t first,
+                                                             std::size_t last) const;
+
+  // Operations among nodes [first, last).
   OperationCounts counts(std::size_t first, std::size_t last) const;
 
  private:

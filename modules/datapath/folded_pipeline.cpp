@@ -17,6 +17,7 @@ std::vector<Life> lives(const std::vector<LaneStep>& steps, const FoldedSchedule
   std::vector<std::uint32_t> last(steps.size());
   std::vector<bool> taken(steps.size());
   for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (steps[i].by == StepBy::kSum) continue;  // it takes its product inside the lane
     for (const LaneStep::Source& source : steps[i].sources) {
       if (source.value.is_constant) continue;
       last[source.value.of] = std::max(last[source.value.of], schedule.begins[i]);
@@ -60,7 +61,7 @@ class Selection {
 };
 
 constexpr std::uint64_t kConstant = std::uint64_t{1} << 32, kPart = std::uint64_t{2} << 32,
-                        kOutsideOf = std::uint64_t{3} << 32;
+                        kOutsideOf = std::uint64_t{3} << 32, kProductOf = std::uint64_t{4} << 32;
 constexpr std::uint32_t kPorts = 3;
 
 class Wiring {
@@ -72,7 +73,8 @@ class Wiring {
         parts_(parts),
         interval_(parts.interval_cycles),
         lives_(lives(steps, schedule, latencies)),
-        chains_(steps.size()) {}
+        chains_(steps.size()),
+        part_of_(steps.size()) {}
 
   LaneWiring run() {
     take_registers();
@@ -144,7 +146,8 @@ class Wiring {
     std::uint32_t first_of_kind = 0;
     for (std::size_t k = 0; k < 4; ++k) {
       for (std::uint32_t i = 0; i < steps_.size(); ++i) {
-        if (static_cast<std::size_t>(steps_[i].by) != k) continue;
+        const StepBy by = steps_[i].by == StepBy::kSum ? StepBy::kLane : part_kind(steps_[i].by);
+        if (static_cast<std::size_t>(by) != k) continue;
         give(i, of_kind[k], first_of_kind);
       }
       for (const Part& part : of_kind[k]) {
@@ -160,17 +163,21 @@ class Wiring {
   }
 
   void give(std::uint32_t step, std::vector<Part>& parts, std::uint32_t first_of_kind) {
+    const StepBy by = steps_[step].by;
     std::uint64_t output = kOutsideOf | step;
-    if (steps_[step].by != StepBy::kOutside) {
+    if (by == StepBy::kSum) {
+      output = kPart | part_of_[steps_[step].sources.front().value.of];
+    } else if (by != StepBy::kOutside) {
+      const std::uint64_t leaves = by == StepBy::kProduct ? kProductOf : kPart;
       std::size_t best = parts.size();
       bool best_swapped = false;
       std::uint32_t least = 0;
       for (std::size_t p = 0; p < parts.size(); ++p) {
         if (parts[p].busy[schedule_.begins[step] % interval_]) continue;
         for (const bool swapped : {false, true}) {
-          if (swapped && steps_[step].by != StepBy::kLane) continue;
+          if (swapped && part_kind(by) != StepBy::kLane) continue;
           const std::uint32_t cost =
-              cost_of(step, parts[p], swapped) + output_cost(step, kPart | (first_of_kind + p));
+              cost_of(step, parts[p], swapped) + output_cost(step, leaves | (first_of_kind + p));
           if (best < parts.size() && cost >= least) continue;
           best = p;
           best_swapped = swapped;
@@ -183,7 +190,8 @@ class Wiring {
         Selection& port = part.ports[port_of(source, best_swapped)];
         port.take(input_of(source, schedule_.begins[step]));
       }
-      output = kPart | (first_of_kind + best);
+      part_of_[step] = first_of_kind + static_cast<std::uint32_t>(best);
+      output = leaves | part_of_[step];
     }
     for (const std::uint32_t to : chains_[step]) {
       registers_[to].take(output);
@@ -212,6 +220,7 @@ class Wiring {
   const std::uint32_t interval_;
   const std::vector<Life> lives_;
   std::vector<std::vector<std::uint32_t>> chains_;  // [step]: registers that its value passes
+  std::vector<std::uint32_t> part_of_;              // [step]: the part that it is given
   std::vector<Selection> registers_;                // [register] sources that it is written from
   LaneWiring out_;
 };

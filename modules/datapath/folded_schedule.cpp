@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kKinds = 4;
 
-std::size_t kind(StepBy by) { return static_cast<std::size_t>(by); }
+std::size_t kind(StepBy by) { return static_cast<std::size_t>(part_kind(by)); }
 
 std::array<std::uint32_t, kKinds> count(const std::vector<LaneStep>& steps) {
   std::array<std::uint32_t, kKinds> counts{};
@@ -63,7 +63,7 @@ class Scheduler {
     for (const std::uint32_t step : order) {
       std::uint32_t ready = 0;
       for (const std::uint32_t from : before[step]) ready = std::max(ready, ends[from]);
-      ends[step] = place(steps_[step].by, ready);
+      ends[step] = place(steps_[step].by, ready, in_order);
     }
     return ends;
   }
@@ -84,15 +84,16 @@ class Scheduler {
   }
 
   // Backward a step begins where, forward, it ends: a part is taken at the same distance from it.
-  std::uint32_t place(StepBy by, std::uint32_t ready) {
-    if (by == StepBy::kOutside) return ready;
+  std::uint32_t place(StepBy by, std::uint32_t ready, bool in_order) {
+    const std::uint32_t latency = cycles_of(by, latencies_);
+    if (part_kind(by) == StepBy::kOutside) return ready + latency;
     std::vector<std::uint32_t>& busy = busy_[kind(by)];
-    const std::uint32_t end = ready + cycles_of(by, latencies_);
-    for (std::uint32_t cycle = end; cycle < end + parts_.interval_cycles; ++cycle) {
-      std::uint32_t& taken = busy[cycle % parts_.interval_cycles];
+    for (std::uint32_t cycle = ready; cycle < ready + parts_.interval_cycles; ++cycle) {
+      const std::uint32_t begin = in_order ? cycle : cycle + latency;
+      std::uint32_t& taken = busy[begin % parts_.interval_cycles];
       if (taken == parts_.of(by)) continue;
       ++taken;
-      return cycle;
+      return cycle + latency;
     }
     throw std::logic_error("folded schedule: more steps than parts have turns in an interval");
   }
@@ -105,6 +106,20 @@ class Scheduler {
 
 std::uint32_t most(const std::vector<std::uint32_t>& values) {
   return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
+}
+
+// A sum follows its product at once. Backward it may have got a later place.
+void follow(const std::vector<LaneStep>& steps, const OperationLatencies& latencies,
+            FoldedSchedule& schedule) {
+  schedule.cycles = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const StepBy by = steps[i].by;
+    if (by == StepBy::kOutside) continue;
+    if (by == StepBy::kSum) {
+      schedule.begins[i] = schedule.begins[steps[i].sources.front().value.of] + latencies.product();
+    }
+    schedule.cycles = std::max(schedule.cycles, schedule.begins[i] + cycles_of(by, latencies));
+  }
 }
 
 // Sets the arrival of values from outside: 0, or for values that come together the cycle in which
@@ -143,6 +158,7 @@ std::uint32_t longest_loop(const std::vector<LaneStep>& steps, const Edges& befo
 }
 
 constexpr int kPasses = 6;
+constexpr std::uint32_t kNone = ~0U;
 
 class Mover {
  public:
@@ -152,13 +168,16 @@ class Mover {
         parts_(parts),
         latencies_(latencies),
         schedule_(schedule),
-        fixed_(steps.size()) {
+        fixed_(steps.size()),
+        sum_of_(steps.size(), kNone) {
     const Edges before = sources(steps);
     taken_by_ = reversed(before);
     for (auto& busy : busy_) busy.assign(parts.interval_cycles, 0);
     for (std::uint32_t i = 0; i < steps.size(); ++i) {
-      fixed_[i] = steps[i].by == StepBy::kOutside;
-      if (!fixed_[i]) ++busy_of(steps[i].by, schedule.begins[i]);
+      const StepBy by = steps[i].by;
+      fixed_[i] = by == StepBy::kOutside;
+      if (by == StepBy::kSum) sum_of_[steps[i].sources.front().value.of] = i;
+      if (part_kind(by) != StepBy::kOutside) ++busy_of(by, schedule.begins[i]);
       for (const std::uint32_t from : before[i]) {
         const bool is_outside = steps[from].by == StepBy::kOutside;
         if (is_outside ? steps[from].comes_with > 0 : fixed_[from]) fixed_[i] = true;
@@ -172,7 +191,7 @@ class Mover {
       // Later, from the end on; then earlier, from the beginning on.
       for (std::uint32_t i = 0; i < size; ++i) {
         const std::uint32_t step = pass % 2 == 0 ? size - 1 - i : i;
-        if (!fixed_[step]) move(step, pass % 2 == 0);
+        if (!fixed_[step] && steps_[step].by != StepBy::kSum) move(step, pass % 2 == 0);
       }
     }
     schedule_.cycles = 0;
@@ -187,24 +206,33 @@ class Mover {
     return schedule_.begins[step] + cycles_of(steps_[step].by, latencies_);
   }
 
+  // The last cycle in which a step can begin so that its value is there in time.
+  std::uint32_t last_begin(std::uint32_t step) const {
+    const std::uint32_t latency = cycles_of(steps_[step].by, latencies_);
+    std::uint32_t last = schedule_.cycles - latency;
+    for (const std::uint32_t to : taken_by_[step]) {
+      const std::uint32_t begin = to == sum_of_[step] ? last_begin(to) : schedule_.begins[to];
+      last = std::min(last, begin - latency);
+    }
+    return last;
+  }
+
+  // A product's sum moves with it.
   void move(std::uint32_t step, bool later) {
     const LaneStep& of = steps_[step];
     std::uint32_t& begin = schedule_.begins[step];
-    const std::uint32_t latency = cycles_of(of.by, latencies_);
-    std::uint32_t first = 0, last = schedule_.cycles - latency;
-    for (const std::uint32_t to : taken_by_[step]) {
-      last = std::min(last, schedule_.begins[to] - latency);
-    }
+    const bool has_sum = sum_of_[step] != kNone;
+    const std::uint32_t last = last_begin(step);
+    std::uint32_t first = 0;
     std::array<std::uint32_t, 3> others_last{};  // [source] when other steps take it last
     std::size_t sources = 0;
     for (const LaneStep::Source& source : of.sources) {
       if (source.value.is_constant) continue;
       first = std::max(first, end(source.value.of));
+      if (is_taken_before(of, source)) continue;
       others_last[sources++] = last_taken_but_by(step, source.value.of);
     }
-    // A square or a reciprocal's step takes a value twice, which ends but once.
-    if (sources > 1 && takes_twice(of)) --sources;
-    const std::uint32_t values = of.answers ? 0 : 1;
+    const std::uint32_t values = of.answers ? 0 : has_sum ? 2 : 1;
     const auto lives = [&](std::uint32_t cycle) {
       std::uint32_t sum = values * (schedule_.cycles - cycle);
       for (std::size_t s = 0; s < sources; ++s) sum += std::max(others_last[s], cycle);
@@ -219,13 +247,16 @@ class Mover {
       if (now < least || (now == least && (later ? cycle > best : cycle < best))) best = cycle;
     }
     begin = best;
+    if (has_sum) schedule_.begins[sum_of_[step]] = end(step);
     ++busy_of(of.by, begin);
   }
 
-  // True if a step takes a value twice: at its first port and again at its last.
-  static bool takes_twice(const LaneStep& of) {
-    const DataFlow::Operand &a = of.sources.front().value, &b = of.sources.back().value;
-    return of.sources.size() > 1 && !a.is_constant && !b.is_constant && a.of == b.of;
+  // True if a source before this one has its value, as in a square: the value ends but once.
+  static bool is_taken_before(const LaneStep& of, const LaneStep::Source& source) {
+    for (const LaneStep::Source* before = of.sources.data(); before != &source; ++before) {
+      if (!before->value.is_constant && before->value.of == source.value.of) return true;
+    }
+    return false;
   }
 
   std::uint32_t last_taken_but_by(std::uint32_t step, std::uint32_t value) const {
@@ -243,6 +274,7 @@ class Mover {
   FoldedSchedule& schedule_;
   Edges taken_by_;
   std::vector<bool> fixed_;
+  std::vector<std::uint32_t> sum_of_;  // [product]: the step that adds to it in its lane, or kNone
   std::array<std::vector<std::uint32_t>, kKinds> busy_;  // [kind][cycle of the interval]
 };
 
@@ -273,6 +305,7 @@ FoldedSchedule folded_schedule(const std::vector<LaneStep>& steps, const FoldedP
                              ? forward[i] - cycles_of(steps[i].by, latencies)
                              : out.cycles - backward[i]);
   }
+  follow(steps, latencies, out);
   arrive(steps, out);
   out.loop_cycles = longest_loop(steps, before, out, latencies);
   return out;

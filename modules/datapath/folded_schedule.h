@@ -17,7 +17,8 @@ struct FoldedParts {
   std::uint32_t interval_cycles = 1;  // between items
 
   std::uint32_t of(StepBy by) const {
-    return by == StepBy::kLane ? lanes : by == StepBy::kComparator ? comparators : tables;
+    const StepBy kind = part_kind(by);
+    return kind == StepBy::kLane ? lanes : kind == StepBy::kComparator ? comparators : tables;
   }
 };
 

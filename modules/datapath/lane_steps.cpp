@@ -20,7 +20,13 @@ class Expansion {
         first_(part.first),
         last_(part.last),
         latencies_(latencies),
+        product_of_(part.flow->products_of_sums(part.first, part.last)),
+        sum_of_(part.last - part.first),
         at_(part.flow->size()) {
+    for (std::size_t i = 0; i < product_of_.size(); ++i) {
+      if (product_of_[i])
+        sum_of_[*product_of_[i] - first_] = static_cast<std::uint32_t>(first_ + i);
+    }
     for (std::size_t i = 0; i < part.together.size(); ++i) {
       for (const std::uint32_t node : part.together[i]) {
         comes_with_[node] = static_cast<std::uint32_t>(i + 1);
@@ -79,7 +85,7 @@ class Expansion {
     ready_.push_back(ready + cycles_of(by, latencies_));
     return {false, static_cast<std::uint32_t>(steps_.size() - 1)};
   }
-  Operand product(Operand a, Operand b) { return push(StepBy::kLane, {{0, a}, {1, b}}); }
+  Operand product(Operand a, Operand b) { return push(StepBy::kProduct, {{0, a}, {1, b}}); }
   Operand sum(Operand a, Operand b) { return push(StepBy::kLane, {{0, a}, {2, b}}); }
   Operand multiply_add(Operand a, Operand b, Operand c) {
     return push(StepBy::kLane, {{0, a}, {1, b}, {2, c}});
@@ -106,8 +112,30 @@ class Expansion {
     return value.is_constant ? 0 : ready_[value.of];
   }
 
+  // A product that more than its sum takes leaves the lane ahead of it.
+  Operand multiplied(std::uint32_t number) {
+    const DataFlow::Node& node = flow_.nodes()[number];
+    const Operand a = value_of(node.a), b = value_of(node.b);
+    const std::optional<std::uint32_t>& sum = sum_of_[number - first_];
+    if (!sum || is_deferred(number)) return product(a, b);
+    const DataFlow::Node& of = flow_.nodes()[*sum];
+    const bool is_a = !of.a.is_constant && of.a.of == number;
+    const Operand c = value_of(is_a ? of.b : of.a);
+    const Operand made = push(StepBy::kProduct, {{0, a}, {1, b}, {2, c}});
+    at_[*sum] = push(StepBy::kSum, {{0, made}});
+    return made;
+  }
+
+  Operand added(std::uint32_t number) {
+    const DataFlow::Node& node = flow_.nodes()[number];
+    const std::optional<std::uint32_t>& product = product_of_[number - first_];
+    if (!product) return sum(value_of(node.a), value_of(node.b));
+    if (is_deferred(*product)) return added_in_lane(node);
+    value_of(*product);
+    return *at_[number];
+  }
   // The later of two lone products is made in the sum's own lane.
-  Operand added(const DataFlow::Node& node) {
+  Operand added_in_lane(const DataFlow::Node& node) {
     const auto deferred = [&](Operand operand) {
       return !operand.is_constant && is_deferred(operand.of);
     };
@@ -116,7 +144,6 @@ class Expansion {
       return std::max(ready(of.a), ready(of.b));
     };
     const bool a = deferred(node.a), b = deferred(node.b);
-    if (!a && !b) return sum(value_of(node.a), value_of(node.b));
     const bool takes_a = a && (!b || factors_ready(node.a) >= factors_ready(node.b));
     const Operand in_lane = takes_a ? node.a : node.b, addend = takes_a ? node.b : node.a;
     const DataFlow::Node& of = flow_.nodes()[in_lane.of];
@@ -188,13 +215,11 @@ class Expansion {
       case Operation::kMoveBits:
       case Operation::kMaskBits:
         return value_of(node.a);
-      case Operation::kMultiply: {
-        const Operand a = value_of(node.a), b = value_of(node.b);
-        return product(a, b);
-      }
+      case Operation::kMultiply:
+        return multiplied(number);
       case Operation::kAdd:
       case Operation::kSubtract:
-        return added(node);
+        return added(number);
       case Operation::kDivide:
         return divided(node);
       case Operation::kSquareRoot:
@@ -239,16 +264,22 @@ class Expansion {
   const std::size_t first_, last_;
   const OperationLatencies latencies_;
   std::map<std::uint32_t, std::uint32_t> comes_with_;
-  std::vector<std::optional<Operand>> at_;        // [node]: its value
-  std::set<std::uint32_t> in_a_sum_;              // products in the lane of a sum
-  std::map<std::uint32_t, Operand> reciprocals_;  // [first division]
+  const std::vector<std::optional<std::uint32_t>> product_of_;  // [sum - first]
+  std::vector<std::optional<std::uint32_t>> sum_of_;            // [product - first]
+  std::vector<std::optional<Operand>> at_;                      // [node]: its value
+  std::set<std::uint32_t> in_a_sum_;                            // products in the lane of a sum
+  std::map<std::uint32_t, Operand> reciprocals_;                // [first division]
   std::vector<LaneStep> steps_;
   std::vector<std::uint32_t> ready_;  // [step], with lanes for all
 };
 
-LongestPath one_by(StepBy by) {
-  return {by == StepBy::kLane ? 1U : 0U, by == StepBy::kComparator ? 1U : 0U,
-          by == StepBy::kTable ? 1U : 0U};
+// A sum's path goes through its product, which is then no step of its own.
+void go_on(LongestPath& path, StepBy by) {
+  path.lane += by == StepBy::kLane || by == StepBy::kSum ? 1 : 0;
+  path.comparator += by == StepBy::kComparator ? 1 : 0;
+  path.look_ups += by == StepBy::kTable ? 1 : 0;
+  if (by == StepBy::kProduct) ++path.products;
+  if (by == StepBy::kSum && path.products > 0) --path.products;
 }
 
 // The longest path among those that begin with a step for which `begins` holds.
@@ -265,7 +296,7 @@ LongestPath longest_from(const std::vector<LaneStep>& steps, const OperationLate
       const auto& before = paths[source.value.of];
       if (before && (!path || path->cycles(latencies) < before->cycles(latencies))) path = before;
     }
-    if (path) path = *path + one_by(step.by);
+    if (path) go_on(*path, step.by);
     if (path && longest.cycles(latencies) < path->cycles(latencies)) longest = *path;
     paths.push_back(path);
   }

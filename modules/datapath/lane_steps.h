@@ -2,10 +2,10 @@
 //
 // A lane is one multiplier followed by one adder, fully pipelined (rtl/README.md): it starts one
 // multiply-add a cycle. It adds to the rounded product, as the source does, or to the whole
-// product, as quotients and roots need. Operations without hardware of their own are made of such
-// steps. A comparator's operation and a look-up take a cycle each. An answer of a comparison is no
-// value: where it selects, it is the write enable of the value computed beside it, and is there
-// before that is.
+// product, as quotients and roots need. The rounded product leaves it ahead of the sum. Operations
+// without hardware of their own are made of such steps. A comparator's operation and a look-up take
+// a cycle each. An answer of a comparison is no value: where it selects, it is the write enable of
+// the value computed beside it, and is there before that is.
 #pragma once
 
 #include <cstddef>
@@ -32,9 +32,9 @@ constexpr std::uint32_t kLogarithmMacs = 8;
 // exp_of in scalar.h, products rounded: x / ln2 1, x - n ln2 2, polynomial 7.
 constexpr std::uint32_t kExponentialMacs = 10;
 
-// Lane cycles of a computation. An add is free where it takes a product that nothing else takes:
-// the lane that makes the product adds as well. Every other multiply or add takes a lane's cycle of
-// its own: max(multiplies, adds) would pair them regardless of what feeds what.
+// Lane cycles of a computation. An add is free where the lane that makes a product adds to it as
+// well: one add a product, whatever else takes that. Every other multiply or add takes a lane's
+// cycle of its own: max(multiplies, adds) would pair them regardless of what feeds what.
 constexpr std::uint32_t folded_macs(const OperationCounts& c) {
   return c.multiplies + c.adds - c.fused + c.divisors * kReciprocalMacs +
          c.divisions * kQuotientMacs + c.square_roots * kSquareRootMacs +
@@ -71,9 +71,14 @@ constexpr std::uint32_t comparisons(const OperationCounts& c) {
 // multiplier's tree and the shifts are half as deep.
 struct OperationLatencies {
   std::uint32_t lane = 3, comparator = 1, look_up = 1;
+
+  // To a lane's product, which leaves it a cycle before the sum.
+  constexpr std::uint32_t product() const { return lane > 1 ? lane - 1 : 1; }
 };
 
-enum class StepBy : std::uint8_t { kOutside, kLane, kComparator, kTable };
+// kLane: a lane's sum. kProduct: a lane's product, in a cycle of the lane; with a third source the
+// lane adds that, for a step kSum that takes this product and needs no cycle of a lane.
+enum class StepBy : std::uint8_t { kOutside, kLane, kComparator, kTable, kProduct, kSum };
 
 // Cycles from the sources to the value.
 constexpr std::uint32_t cycles_of(StepBy by, const OperationLatencies& latencies) {
@@ -86,8 +91,17 @@ constexpr std::uint32_t cycles_of(StepBy by, const OperationLatencies& latencies
       return latencies.comparator;
     case StepBy::kTable:
       return latencies.look_up;
+    case StepBy::kProduct:
+      return latencies.product();
+    case StepBy::kSum:
+      return latencies.lane - latencies.product();
   }
   return 0;
+}
+
+// What a step takes a cycle of: a lane for a product, nothing for its sum.
+constexpr StepBy part_kind(StepBy by) {
+  return by == StepBy::kProduct ? StepBy::kLane : by == StepBy::kSum ? StepBy::kOutside : by;
 }
 
 struct LaneStep {
@@ -109,18 +123,17 @@ struct LaneStep {
 // Different constants that the steps take: numbers of the frame, of the group, and of the code.
 std::uint32_t constants_of(const std::vector<LaneStep>& steps);
 
-// Steps that wait for each other, the longest in cycles.
+// Steps that wait for each other, the longest in cycles. lane: sums that leave lanes.
 struct LongestPath {
-  std::uint32_t lane = 0, comparator = 0, look_ups = 0;
+  std::uint32_t lane = 0, comparator = 0, look_ups = 0, products = 0;
 
   constexpr std::uint32_t cycles(const OperationLatencies& each) const {
-    return lane * each.lane + comparator * each.comparator + look_ups * each.look_up;
-  }
-  friend constexpr LongestPath operator+(const LongestPath& a, const LongestPath& b) {
-    return {a.lane + b.lane, a.comparator + b.comparator, a.look_ups + b.look_ups};
+    return lane * each.lane + products * each.product() + comparator * each.comparator +
+           look_ups * each.look_up;
   }
   friend constexpr bool operator==(const LongestPath& a, const LongestPath& b) {
-    return a.lane == b.lane && a.comparator == b.comparator && a.look_ups == b.look_ups;
+    return a.lane == b.lane && a.comparator == b.comparator && a.look_ups == b.look_ups &&
+           a.products == b.products;
   }
 };
 

@@ -94,7 +94,7 @@ inline void visit(ConfigVisitor& v, CcuConfig& c) {
 
 struct ListsConfig {
   std::uint32_t tiles_at_once = 4;
-  std::uint32_t tile_lanes = 20, part_lanes = 24;
+  std::uint32_t tile_lanes = 20, part_lanes = 18;
   std::uint32_t tested_entries = 4;
   std::uint32_t tiles = 0, lines = 0;
   std::uint32_t line_bytes = 32, block_lines = 16;

@@ -28,7 +28,7 @@ struct ExactConfig : StreamingConfig {
     hfu.cfu_lanes = 2;
     hfu.candidate_fifo_entries = 18;  // 14 are under test in the CFUs, and marks
     hfu.second_half_slots = 8;
-    rendering.cluster_lanes = 64;
+    rendering.cluster_lanes = 56;
     rendering.pixel_buffers = 1;
     rendering.input_fifo_entries = 20;  // splats in an FFU's pipeline, one every 18 cycles
     rendering.begin_lanes = 11;

@@ -27,8 +27,10 @@ void take(const char* key, std::uint32_t& depth_cycles, std::uint32_t scheduled,
   }
   depth_cycles = least;
   std::string why = fmt::format(
-      "schedule of {}; its longest path is {}: {} on lanes, {} on comparators, {} look-ups", of,
-      path.cycles(latencies), path.lane, path.comparator, path.look_ups);
+      "schedule of {}; its longest path is {}: {} sums and {} products on lanes, {} on "
+      "comparators, "
+      "{} look-ups",
+      of, path.cycles(latencies), path.lane, path.products, path.comparator, path.look_ups);
   if (beside > 0) why += fmt::format("; {} beside", beside);
   chosen.push_back({ChoiceKind::kDerived, key, static_cast<double>(depth_cycles), std::move(why)});
 }

@@ -144,7 +144,7 @@ def paper_points(voxel: float) -> Iterator[Point]:
     yield Point(PAPER, "voxels cut", "never", whole)
     yield Point(PAPER, "encoding", "half", ("storage.encoding=half",))
     yield Point(PAPER, "encoding", "vq", VQ)
-    yield Point(PAPER, "precision", "fp32", (blended("fp32"), "rendering.cluster_lanes=190"))
+    yield Point(PAPER, "precision", "fp32", (blended("fp32"), "rendering.cluster_lanes=167"))
     yield Point(PAPER, "finishing", "off", ("rendering.saturation_feedback=false",))
     yield Point(PAPER, "pixels", "rgb8", ("framebuffer=rgb8",))
     fast = (*group_assignments("160x120"), "hfus=6", "vsu.ray_step_px=4")

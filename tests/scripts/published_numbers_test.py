@@ -22,7 +22,6 @@ PUBLISHED = (
 
 # (file, number): what it means there. An entry that is not found any more fails too.
 OTHER_MEANINGS: dict[tuple[str, float], str] = {
-    ("modules/streaminggs/rendering/rendering_config.h", 190): "counted operations of a blend",
     # Operands that a longest path is looked for with.
     ("modules/streaminggs/vsu/vsu_datapaths.cpp", 2.1): "a position",
     ("modules/streaminggs/vsu/vsu_datapaths.cpp", 3.1): "a position",

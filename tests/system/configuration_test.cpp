@@ -238,7 +238,7 @@ TEST_CASE("configuration: a machine's name alone is the preset of its name, or a
   const ScratchFolder scratch;
   for (const auto& [machine, differs] : std::vector<std::pair<std::string, const char*>>{
            {"exact", ""},
-           {"paper", R"(, "rendering": {"cluster_lanes": 182}, "storage": {"encoding": "vq"})"}}) {
+           {"paper", R"(, "rendering": {"cluster_lanes": 162}, "storage": {"encoding": "vq"})"}}) {
     const auto print = [&](const std::string& config) {
       return run_streaminggs(
                  {"simulate", "builtin:object?n=500", "--config", config, "--print-config"})

@@ -5,6 +5,7 @@
 // A step of PROGRAM has 32 bits, the first step the highest ones:
 //   31: outside: its value is made of a, b, c by who instantiates this, in its cycle
 //   30: the lane's product, which is there a cycle before the sum
+//   31, 30: the product of step a, whose sum is that step: no lane of its own
 //   29: of a product that is not rounded
 //   28, 27: a, c negated
 //   23:16, 15:8, 7:0: a, b, c: number of a step, 128 + number of an input, 192 + number of a constant
@@ -59,7 +60,10 @@ module folded_lanes #(
             if (there > cycle) cycle = there;
           end
         end
-        if (!step[31]) begin
+        if (step[31] & step[30]) begin
+          scheduled[64*i+32+:32] = scheduled[64*step[23:16]+32+:32];
+          cycle = scheduled[64*step[23:16]+:32];
+        end else if (!step[31]) begin
           for (turns = 0; turns < INTERVAL; turns = turns + 1) begin
             if (taken[32*(cycle%INTERVAL)+:32] == LANES) cycle = cycle + 1;
           end
@@ -71,7 +75,7 @@ module folded_lanes #(
     end
   endfunction
   function integer latency_of(input [1:0] kind);
-    latency_of = kind[1] ? 1 : kind[0] ? LANE_CYCLES - 1 : LANE_CYCLES;
+    latency_of = kind[0] ? LANE_CYCLES - 1 : kind[1] ? 1 : LANE_CYCLES;
   endfunction
   localparam [STEPS*64-1:0] SCHEDULE = scheduled(0);
 
@@ -83,7 +87,7 @@ module folded_lanes #(
     reg [1:0] kind;
     begin
       kind = kind_of(value < STEPS ? value : 0);
-      held_from = value >= STEPS ? 0 : begin_of(value) + latency_of(kind) + (kind[1] ? 0 : 1);
+      held_from = value >= STEPS ? 0 : begin_of(value) + latency_of(kind) + (kind == 2'd2 ? 0 : 1);
     end
   endfunction
   function integer value_of(input integer source);
@@ -131,6 +135,7 @@ module folded_lanes #(
 
   // Values as they come, and in their registers. The last value is that the item is there.
   wire [VALUES*32-1:0] comes;
+  wire unused_values = &{1'b0, comes};  // some steps are made for their operands
   wire [VALUES*LONGEST*32-1:0] waits;
   assign comes[(STEPS+INPUTS)*32+:32] = {31'b0, begins};
   assign comes[STEPS*32+:INPUTS*32] = inputs;
@@ -174,7 +179,7 @@ module folded_lanes #(
         assign words[(2-p)*32+:32] = {word[31] ^ negated, word[30:0]};
       end
       assign operands[s*128+:128] = {31'b0, turn == begin_of(s) % INTERVAL, words};
-      if (STEP[31]) begin : is_outside
+      if (STEP[31] & ~STEP[30]) begin : is_outside
         assign comes[s*32+:32] = outside[s*32+:32];
       end else begin : is_lane
         localparam LANE = SCHEDULE[64*s+32+:32];

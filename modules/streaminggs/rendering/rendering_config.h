@@ -13,7 +13,7 @@ namespace sgs {
 
 struct RenderingConfig {
   std::uint32_t clusters = 4;
-  std::uint32_t cluster_lanes = 190;
+  std::uint32_t cluster_lanes = 167;
   BlendPrecision precision = BlendPrecision::kSingle;
   std::uint32_t cluster_queue_entries = 8;
   std::uint32_t depth_cycles = 0;

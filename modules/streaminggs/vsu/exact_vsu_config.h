@@ -13,7 +13,7 @@ namespace sgs {
 struct ExactVsuConfig {
   std::uint32_t upper_nodes = 24;
   std::uint32_t nodes_in_flight = 2;
-  std::uint32_t test_lanes = 32;
+  std::uint32_t test_lanes = 29;
   std::uint32_t nodes_in_test = 8;
   std::uint32_t test_depth_cycles = 0;
   std::uint32_t queue_entries = 512;

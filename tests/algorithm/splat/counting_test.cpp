@@ -25,7 +25,7 @@ TEST_CASE("counting: a dot product is three multiplies, two of which the adds fo
   CHECK(counts.fused == 2);
 }
 
-TEST_CASE("counting: a product that is taken twice leaves its lane, and the adds take cycles") {
+TEST_CASE("counting: a product is made in one step with a sum that takes it") {
   DataFlow flow;
   const Counting a = input(flow, 2), b = input(flow, 3), c = input(flow, 4);
   const Counting product = a * b;
@@ -33,7 +33,24 @@ TEST_CASE("counting: a product that is taken twice leaves its lane, and the adds
   CHECK(all(flow).fused == 1);
   CHECK((product - c).value == 2);
   CHECK(all(flow).adds == 2);
+  CHECK(all(flow).fused == 1);
+  // Nothing is added to the product of another range.
+  CHECK(flow.counts(product.node + 1, flow.size()).fused == 0);
+}
+
+TEST_CASE("counting: a product does not wait for what waits for it") {
+  DataFlow flow;
+  const Counting a = input(flow, 2), b = input(flow, 3), c = input(flow, 4);
+  const Counting product = a * b;
+  static_cast<void>(product + max_of(product, c));
   CHECK(all(flow).fused == 0);
+  const Counting other = b * c;
+  static_cast<void>(product + other);
+  CHECK(all(flow).fused == 1);
+  static_cast<void>(product - other);  // one of them waits for the other
+  CHECK(all(flow).fused == 1);
+  static_cast<void>(product + c);
+  CHECK(all(flow).fused == 2);
 }
 
 TEST_CASE("counting: the same operation again, and operations on constants, cost nothing") {

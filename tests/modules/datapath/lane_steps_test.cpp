@@ -23,42 +23,62 @@ TEST_CASE("longest path: what waits for what, by hand") {
   struct Row {
     const char* what;
     Counting (*of)(Counting a, Counting b, Counting c, Counting d);
-    LongestPath expected;  // on lanes, on comparators, look-ups
+    LongestPath expected;  // sums of lanes, on comparators, look-ups, products of lanes
   };
   const Row rows[] = {
-      {"one product", [](Counting a, Counting b, Counting, Counting) { return a * b; }, {1, 0, 0}},
+      {"one product",
+       [](Counting a, Counting b, Counting, Counting) { return a * b; },
+       {0, 0, 0, 1}},
       {"a sum right behind its product",
        [](Counting a, Counting b, Counting c, Counting) { return a * b + c; },
        {1, 0, 0}},
       {"two products, one in the sum's lane",
        [](Counting a, Counting b, Counting c, Counting d) { return a * b + c * d; },
-       {2, 0, 0}},
+       {1, 0, 0, 1}},
       {"the later of two products is the one in the sum's lane",
        [](Counting a, Counting b, Counting c, Counting d) { return a * b + c * d * d; },
-       {2, 0, 0}},
+       {1, 0, 0, 1}},
       {"the same the other way round",
        [](Counting a, Counting b, Counting c, Counting d) { return c * d * d - a * b; },
-       {2, 0, 0}},
-      {"a product that two take has left its lane",
+       {1, 0, 0, 1}},
+      {"a product leaves its lane ahead of its sum",
+       [](Counting a, Counting b, Counting c, Counting d) {
+         const Counting product = a * b;
+         return max_of(product * d, c - product);
+       },
+       {0, 1, 0, 2}},
+      {"both of one lane",
+       [](Counting a, Counting b, Counting, Counting) {
+         const Counting product = a * b;
+         return product * (b - product);
+       },
+       {1, 0, 0, 1}},
+      {"a product that two sums take: one has a lane of its own",
        [](Counting a, Counting b, Counting c, Counting) {
          const Counting product = a * b;
          return (product + c) * (product - c);
        },
-       {3, 0, 0}},
+       {1, 0, 0, 2}},
+      {"a product that waits for what is added to it",
+       [](Counting a, Counting b, Counting c, Counting d) {
+         const Counting product = a * b;
+         return max_of(product + (c + d), product * d);
+       },
+       {1, 1, 0, 2}},
       {"signs are free, constants are there",
        [](Counting a, Counting, Counting, Counting) { return -abs(a) * Counting(3.0F); },
-       {1, 0, 0}},
+       {0, 0, 0, 1}},
       {"a quotient from its divisor",
        [](Counting a, Counting b, Counting, Counting) { return a / b; },
-       {7, 0, 1}},
+       {6, 0, 1, 1}},
       {"a quotient from a late dividend: the reciprocal is made beside it",
        [](Counting a, Counting b, Counting c, Counting d) {
          return (a + b + c + d + a + b + c) / d;
        },
-       {6 + 3, 0, 0}},
+       {6 + 2, 0, 0, 1}},
       {"root, maximum, whole number",
        [](Counting a, Counting b, Counting, Counting) { return ceil(max_of(sqrt(a), b)); },
-       {7, 1 + 3, 1}},
+       {6, 1 + 3, 1, 1}},
       {"logarithm",
        [](Counting a, Counting, Counting, Counting) { return log(a); },
        // exponent apart, row; z / c - 1, r^2, two of the cubic's four, the rest beside
@@ -66,7 +86,7 @@ TEST_CASE("longest path: what waits for what, by hand") {
       {"exponential",
        [](Counting a, Counting, Counting, Counting) { return exp(a); },
        // x / ln2, rounded, x - n ln2 in 2, polynomial 7, power of two
-       {10, 3 + 1, 0}},
+       {9, 3 + 1, 0, 1}},
       {"logarithm and power of two",
        [](Counting a, Counting, Counting, Counting) { return exp2_by_table(log(a)); },
        // end of the table, split, row, parabola of two steps, exponent
@@ -81,6 +101,7 @@ TEST_CASE("longest path: what waits for what, by hand") {
     CHECK(path.lane == row.expected.lane);
     CHECK(path.comparator == row.expected.comparator);
     CHECK(path.look_ups == row.expected.look_ups);
+    CHECK(path.products == row.expected.products);
   }
 }
 

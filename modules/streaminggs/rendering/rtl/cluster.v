@@ -3,8 +3,8 @@
 // pixels.
 module cluster #(
     parameter QUEUE_ENTRIES = 8,
-    parameter STATE_LOOP_CYCLES = 10,  // 9 or more
-    parameter DEPTH_CYCLES = 50,       // 44 or more
+    parameter STATE_LOOP_CYCLES = 9,  // 9 or more
+    parameter DEPTH_CYCLES = 47,      // 46 or more
     parameter SUBTILES = 144
 ) (
     input clock,
@@ -36,7 +36,7 @@ module cluster #(
 );
   localparam INTERVAL = 3;
   localparam LOOP_TURNS = (STATE_LOOP_CYCLES + INTERVAL - 1) / INTERVAL;
-  localparam READ = 11, WRITE = 14;  // stages of a blend, of three cycles
+  localparam READ = 12, WRITE = 14;  // stages of a blend, of three cycles
 
   // The queue. Room that is made in a cycle is seen in it.
   localparam POINTER_BITS = $clog2(QUEUE_ENTRIES);
@@ -120,7 +120,7 @@ module cluster #(
 
   // Pixels, a memory for each place in a sub-tile.
   localparam [127:0] CLEAR = {32'h3F800000, 96'b0};
-  wire writes = is_there[WRITE] & phase == 2'd0;
+  wire writes = is_there[WRITE] & phase == 2'd2;
   genvar k;
   generate
     for (k = 0; k < 16; k = k + 1) begin : places
@@ -132,7 +132,7 @@ module cluster #(
           .ADDRESS_BITS(8)
       ) memory (
           .clock(clock),
-          .reads(drains | phase == 2'd1),
+          .reads(drains | phase == 2'd0),
           .read_at(drains ? drained : addresses[READ]),
           .read(pixels[k*128+:128]),
           .writes_light(clears | (writes & writes_light[k])),
@@ -144,7 +144,7 @@ module cluster #(
   endgenerate
 
   // A sub-tile is known to be finished in the cycle behind this news.
-  localparam LATER = DEPTH_CYCLES - 44;
+  localparam LATER = DEPTH_CYCLES - 46;
   wire [(LATER+1)*17-1:0] news;
   assign news[16:0] = {writes & all_finished, ys[WRITE], xs[WRITE]};
   generate

@@ -5,9 +5,9 @@ module rendering_unit #(
     parameter ROWS = 24,
     parameter CLUSTERS = 4,
     parameter QUEUE_ENTRIES = 8,
-    parameter STATE_LOOP_CYCLES = 10,
-    parameter DEPTH_CYCLES = 50,
-    parameter DRAIN_DEPTH_CYCLES = 11,
+    parameter STATE_LOOP_CYCLES = 9,
+    parameter DEPTH_CYCLES = 47,
+    parameter DRAIN_DEPTH_CYCLES = 10,
     parameter SPAN_SLOTS = 48  // of span_pipeline.v
 ) (
     input clock,

@@ -17,44 +17,43 @@ module row_span #(
 );
   localparam [7:0] SUM = 8'h00, EXACT = 8'h20, PRODUCT = 8'h40, OUTSIDE = 8'h80, MINUS_A = 8'h10,
       MINUS_C = 8'h08;
-  localparam STEPS = 28, INPUTS = 12, CONSTANTS = 3;
+  localparam STEPS = 27, INPUTS = 12, CONSTANTS = 3;
   localparam [7:0] X = 128, Y = 129, SLOPE = 130, RADICAND = 131, BEND = 132, HALF_WIDTH = 133,
       RIGHT_AT = 134, SLACK = 135, EDGE_LEFT = 136, EDGE_RIGHT = 137, TOP_LINE = 138,
       BOTTOM_LINE = 139;
   localparam [7:0] ONE = 192, HALF = 193, NOTHING = 194;
-  localparam [7:0] BOTTOM = 0, BEND_DY = 1, UNDER_ROOT = 2, H0 = 3, TWICE_H0 = 4, G0 = 5, R1 = 6,
-      G1 = 7, H1 = 8, R2 = 9, G2 = 10, H2 = 11, REST = 12, ROOT = 13, MIDDLE = 14, ROOT_OR_0 = 15,
-      RIGHT = 16, LEFT = 17, TOP = 18, EXTREME = 19, MOST_RIGHT = 20, MOST_LEFT = 21,
-      FAR_RIGHT = 22, FAR_LEFT = 23, HIGH_1 = 24, LOW_1 = 25, HIGH = 26, LOW = 27;
+  localparam [7:0] TOP = 0, BOTTOM = 1, EXTREME = 2, MIDDLE = 3, BEND_DY = 4, UNDER_ROOT = 5,
+      TWICE_H0 = 6, G0 = 7, H0 = 8, R1 = 9, H1 = 10, G1 = 11, R2 = 12, H2 = 13, G2 = 14, REST = 15,
+      ROOT = 16, LEFT = 17, FAR_LEFT = 18, LOW_1 = 19, LOW = 20, MOST_LEFT = 21, RIGHT = 22,
+      MOST_RIGHT = 23, FAR_RIGHT = 24, HIGH_1 = 25, HIGH = 26;
   localparam [STEPS*32-1:0] PROGRAM = {
+    {SUM | MINUS_C, TOP_LINE, ONE, Y},
     {SUM | MINUS_C, BOTTOM_LINE, ONE, Y},
+    {OUTSIDE, TOP, BOTTOM, RIGHT_AT},
+    {PRODUCT, SLOPE, BOTTOM, NOTHING},
     {PRODUCT, BEND, BOTTOM, NOTHING},
     {SUM | MINUS_A, BEND_DY, BOTTOM, RADICAND},
     {OUTSIDE, UNDER_ROOT, NOTHING, NOTHING},
-    {OUTSIDE, UNDER_ROOT, NOTHING, NOTHING},
     {PRODUCT, UNDER_ROOT, TWICE_H0, NOTHING},
+    {OUTSIDE, UNDER_ROOT, NOTHING, NOTHING},
     {EXACT | MINUS_A, G0, H0, HALF},
-    {EXACT, G0, R1, G0},
     {EXACT, H0, R1, H0},
+    {EXACT, G0, R1, G0},
     {EXACT | MINUS_A, G1, H1, HALF},
-    {EXACT, G1, R2, G1},
     {EXACT, H1, R2, H1},
+    {EXACT, G1, R2, G1},
     {EXACT | MINUS_A, G2, G2, UNDER_ROOT},
     {EXACT, REST, H2, G2},
-    {PRODUCT, SLOPE, BOTTOM, NOTHING},
-    {OUTSIDE, ROOT, UNDER_ROOT, NOTHING},
-    {SUM, ROOT_OR_0, ONE, MIDDLE},
-    {SUM | MINUS_A, ROOT_OR_0, ONE, MIDDLE},
-    {SUM | MINUS_C, TOP_LINE, ONE, Y},
-    {OUTSIDE, TOP, BOTTOM, RIGHT_AT},
-    {OUTSIDE, RIGHT, UNDER_ROOT, EDGE_RIGHT},
-    {OUTSIDE, LEFT, UNDER_ROOT, EDGE_LEFT},
-    {OUTSIDE, MOST_RIGHT, EXTREME, HALF_WIDTH},
-    {OUTSIDE, MOST_LEFT, EXTREME, HALF_WIDTH},
-    {SUM, FAR_RIGHT, ONE, X},
+    {SUM | MINUS_A, ROOT, ONE, MIDDLE},
+    {OUTSIDE, LEFT, EXTREME, HALF_WIDTH},
     {SUM | MINUS_A, FAR_LEFT, ONE, X},
-    {SUM, HIGH_1, ONE, SLACK},
-    {SUM | MINUS_C, LOW_1, ONE, SLACK}
+    {SUM | MINUS_C, LOW_1, ONE, SLACK},
+    {OUTSIDE, LEFT, UNDER_ROOT, EDGE_LEFT},
+    {SUM, ROOT, ONE, MIDDLE},
+    {OUTSIDE, RIGHT, UNDER_ROOT, EDGE_RIGHT},
+    {OUTSIDE, RIGHT, EXTREME, HALF_WIDTH},
+    {SUM, FAR_RIGHT, ONE, X},
+    {SUM, HIGH_1, ONE, SLACK}
   };
   localparam [CONSTANTS*32-1:0] NUMBERS = {32'h80000000, 32'h3F000000, 32'h3F800000};
   localparam [STEPS-1:0] KEPT = (1 << LOW) | (1 << HIGH);
@@ -90,16 +89,15 @@ module row_span #(
   assign low = kept[LOW*32+:32];
   assign high = kept[HIGH*32+:32];
 
-  // The root: its seed, and 0 of 0.
+  // The root: its seed, which is 0 of 0, as the root is then.
   wire [31:0] seed;
   root_seed from (
       .x(operands[H0*128+16+:15]),
       .seed(seed)
   );
-  assign outside[H0*32+:32] = seed;
-  assign outside[TWICE_H0*32+:32] = {seed[31], seed[30:23] + 8'd1, seed[22:0]};
-  assign outside[ROOT_OR_0*32+:32] =
-      operands[ROOT_OR_0*128+:32] & {32{operands[ROOT_OR_0*128+55+:8] != 0}};
+  wire [31:0] not_0 = {32{operands[H0*128+23+:8] != 0}};
+  assign outside[H0*32+:32] = seed & not_0;
+  assign outside[TWICE_H0*32+:32] = {seed[31], seed[30:23] + 8'd1, seed[22:0]} & not_0;
 
   // Whether the ellipse's extremes lie in the row.
   wire [31:0] top = operands[EXTREME*128+:32], bottom = operands[EXTREME*128+32+:32];
@@ -119,14 +117,15 @@ module row_span #(
   );
   assign outside[EXTREME*32+:32] = {30'b0, is_left, is_right};
 
-  // The farther one of both edges of a row.
+  // The farther one of both edges of a row, or the extreme: steps of one cycle.
+  wire [31:0] most_right, most_left;
   row_edge right_edge (
       .clock(clock),
       .now(operands[MOST_RIGHT*128+96]),
       .bound(operands[MOST_RIGHT*128+:32]),
       .under_root(operands[MOST_RIGHT*128+32+:32]),
       .begun(operands[MOST_RIGHT*128+64+:32]),
-      .most(outside[MOST_RIGHT*32+:32])
+      .most(most_right)
   );
   row_edge left_edge (
       .clock(clock),
@@ -134,10 +133,12 @@ module row_span #(
       .bound(operands[MOST_LEFT*128+:32] ^ 32'h80000000),
       .under_root(operands[MOST_LEFT*128+32+:32]),
       .begun(operands[MOST_LEFT*128+64+:32] ^ 32'h80000000),
-      .most(outside[MOST_LEFT*32+:32])
+      .most(most_left)
   );
+  assign outside[MOST_RIGHT*32+:32] = most_right;
+  assign outside[MOST_LEFT*32+:32] = most_left;
   assign outside[FAR_RIGHT*32+:32] = operands[FAR_RIGHT*128+32] ? operands[FAR_RIGHT*128+64+:32] :
-      operands[FAR_RIGHT*128+:32];
+      most_right;
   assign outside[FAR_LEFT*32+:32] = operands[FAR_LEFT*128+33] ? operands[FAR_LEFT*128+64+:32] :
-      operands[FAR_LEFT*128+:32];
+      most_left;
 endmodule

@@ -17,10 +17,10 @@ namespace sgs::test {
 
 struct RenderingHardware {
   std::uint32_t clusters = 4, blend_interval = 3, queue_entries = 8;
-  std::uint32_t depth = 50, state_loop = 10;
-  std::uint32_t begin_interval = 7, begin_depth = 91, rows_at_once = 1, row_interval = 2;
-  std::uint32_t row_depth = 42, slots = 48;
-  std::uint32_t pixel_buffers = 1, drain_depth = 11;
+  std::uint32_t depth = 47, state_loop = 9;
+  std::uint32_t begin_interval = 7, begin_depth = 77, rows_at_once = 1, row_interval = 2;
+  std::uint32_t row_depth = 39, slots = 48;
+  std::uint32_t pixel_buffers = 1, drain_depth = 10;
   PortHardware port = {};
 };
 

@@ -48,9 +48,9 @@ RenderingConfig config_of(const RenderingHardware& hw) {
   const auto lanes = [](std::uint32_t macs, std::uint32_t interval) {
     return (macs + interval - 1) / interval;
   };
-  config.cluster_lanes = lanes(190, hw.blend_interval);
-  config.begin_lanes = lanes(73, hw.begin_interval);
-  config.span_lanes = lanes(20 * hw.rows_at_once, hw.row_interval);
+  config.cluster_lanes = lanes(167, hw.blend_interval);
+  config.begin_lanes = lanes(71, hw.begin_interval);
+  config.span_lanes = lanes(19 * hw.rows_at_once, hw.row_interval);
   REQUIRE(config.cluster_interval_cycles() == hw.blend_interval);
   REQUIRE(config.begin_interval_cycles() == hw.begin_interval);
   REQUIRE(config.span_interval_cycles() == hw.row_interval);

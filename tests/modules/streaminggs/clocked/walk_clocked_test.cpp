@@ -103,7 +103,7 @@ TEST_CASE("clocked reference: VSU of exact order") {
   tiny.nodes_in_test = 1;
   tiny.upper_nodes = 1;
   WalkHardware narrow = exact;
-  narrow.tests.test_cycles = 30;
+  narrow.tests.test_cycles = 29;
   narrow.nodes_in_test = 3;
   WalkHardware fast = exact;
   fast.operation_cycles = 2;
@@ -114,7 +114,7 @@ TEST_CASE("clocked reference: VSU of exact order") {
            WalkWorkload{"output stalled", 1500, 4, 300, exact},
            WalkWorkload{"memory of 300 cycles", 1500, 1, 1, far},
            WalkWorkload{"tiny buffers", 1500, 1, 1, tiny, 1, 1},
-           WalkWorkload{"a child every 30 cycles", 1500, 1, 1, narrow},
+           WalkWorkload{"a child every 29 cycles", 1500, 1, 1, narrow},
            WalkWorkload{"a child a cycle, operations of 2", 1500, 1, 1, fast},
            WalkWorkload{"groups that finish", 3000, 1, 1, exact, 4, 4, {3000}, 116},
        }) {

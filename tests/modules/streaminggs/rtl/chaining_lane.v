@@ -2,12 +2,11 @@
 module chaining_lane (
     input clock,
     input [95:0] operands,
+    output [31:0] product,
     output [31:0] sum
 );
   reg [95:0] held;
   always @(posedge clock) held <= operands;
-  wire [31:0] product;
-  wire unused = &{1'b0, product};
   registered_lane one (
       .clock(clock),
       .a(held[31:0]),

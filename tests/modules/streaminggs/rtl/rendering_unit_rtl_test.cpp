@@ -28,16 +28,16 @@ constexpr double kMostApart = 16;         // cycles a group, of pipelines that f
 // The preset `exact`.
 RenderingConfig config_of_exact() {
   RenderingConfig config;
-  config.cluster_lanes = 64;
+  config.cluster_lanes = 56;
   config.begin_lanes = 11;
   config.span_lanes = 10;
   config.span_slots = 48;
   config.pixel_buffers = 1;
-  config.state_loop_cycles = 10;
-  config.depth_cycles = 50;
-  config.begin_depth_cycles = 91;
-  config.span_depth_cycles = 42;
-  config.drain_depth_cycles = 11;
+  config.state_loop_cycles = 9;
+  config.depth_cycles = 47;
+  config.begin_depth_cycles = 77;
+  config.span_depth_cycles = 39;
+  config.drain_depth_cycles = 10;
   return config;
 }
 

@@ -13,7 +13,7 @@
 namespace sgs::test {
 namespace {
 
-constexpr std::size_t kInterval = 3, kReadAt = 35, kResultAt = 42;
+constexpr std::size_t kInterval = 3, kReadAt = 37, kResultAt = 44;
 constexpr std::size_t kSubtiles = 3;  // in turn: a sub-tile comes again as early as its loop allows
 constexpr PixelSize kFrame{38, 27};   // whose last column and row of sub-tiles are cut
 
