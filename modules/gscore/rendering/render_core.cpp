@@ -9,6 +9,7 @@
 #include "modules/datapath/selection.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
+#include "tlm/row_writer.h"
 
 namespace sgs::gscore {
 namespace {
@@ -241,14 +242,16 @@ void RenderCore::write_tile(const GroupState& state) {
   const auto width = static_cast<std::uint32_t>(pixels.width());
   const std::uint32_t bytes = pixel_bytes(job_.frame_format);
   std::vector<std::byte> row(std::size_t{width} * bytes);
+  const std::uint64_t row_cycles = cycles_for(width, config_.rendering.drain_pixels_per_cycle);
+  RowWriter rows(pixel_memory, drain_);
   for (int y = pixels.y0; y < pixels.y1; ++y) {
     for (int x = pixels.x0; x < pixels.x1; ++x) {
       encode_pixel(job_.frame_format, state.colour(x, y, job_.background),
                    row.data() + static_cast<std::size_t>(x - pixels.x0) * bytes);
     }
-    drain_.work(cycles_for(width, config_.rendering.drain_pixels_per_cycle));
-    start_write(pixel_memory, drain_, job_.pixel_address(pixels.x0, y), row.data(),
-                static_cast<std::uint32_t>(row.size()), job_.frame_buffer.region);
+    rows.make(row_cycles);
+    rows.write(job_.pixel_address(pixels.x0, y), row.data(), static_cast<std::uint32_t>(row.size()),
+               job_.frame_buffer.region, y + 1 < pixels.y1 ? row_cycles : 0);
     counters_.pixels += width;
   }
 }

@@ -2,6 +2,7 @@
 #include "modules/streaminggs/rendering/rendering_unit.h"
 
 #include "modules/datapath/work_rates.h"
+#include "tlm/row_writer.h"
 
 namespace sgs {
 namespace {
@@ -122,14 +123,16 @@ void RenderingUnit::write_group(const GroupState& state) {
   const auto width = static_cast<std::uint32_t>(pixels.width());
   const std::uint32_t bytes = pixel_bytes(job_.frame_format);
   std::vector<std::byte> row(std::size_t{width} * bytes);
+  const std::uint32_t row_cycles = config_.drain_row_cycles(width);
+  RowWriter rows(memory, drain_);
   for (int y = pixels.y0; y < pixels.y1; ++y) {
     for (int x = pixels.x0; x < pixels.x1; ++x) {
       encode_pixel(job_.frame_format, state.colour(x, y, job_.background),
                    row.data() + static_cast<std::size_t>(x - pixels.x0) * bytes);
     }
-    drain_.work(config_.drain_row_cycles(width));
-    start_write(memory, drain_, job_.pixel_address(pixels.x0, y), row.data(),
-                static_cast<std::uint32_t>(row.size()), job_.frame_buffer.region);
+    rows.make(row_cycles);
+    rows.write(job_.pixel_address(pixels.x0, y), row.data(), static_cast<std::uint32_t>(row.size()),
+               job_.frame_buffer.region, y + 1 < pixels.y1 ? row_cycles : 0);
   }
   // A sub-tile is cleared in the cycle after its last row was read: all but the last while others
   // are drained.

@@ -62,6 +62,11 @@ class ClockedPort {
     return read.bytes == 0 && read.answers <= answers_;
   }
   bool idle() const { return reads_.empty() && writes_.empty(); }
+  // Words of a write are leaving.
+  bool sending() const { return now_ < leaves_from_; }
+  std::uint64_t words(std::uint64_t bytes) const {
+    return (bytes + hw_.config.width_bytes - 1) / hw_.config.width_bytes;
+  }
 
  private:
   struct Read {
@@ -78,7 +83,7 @@ class ClockedPort {
     const std::uint64_t bytes = std::min(what.bytes, longest - what.address % longest);
     what.address += bytes;
     what.bytes -= bytes;
-    return (bytes + hw_.config.width_bytes - 1) / hw_.config.width_bytes;
+    return words(bytes);
   }
 
   const PortHardware hw_;

@@ -1,7 +1,9 @@
 // The drain of a rendering core register by register: marks behind the blocks of their tile, and
-// the row of pixels that stands in its register until it has left.
+// the row of pixels that stands in its register. While its words leave, the next row takes their
+// places, if it is no faster than they.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -52,10 +54,15 @@ class ClockedDrain {
       end_row(now, tile);
       return true;
     }
-    return row_left_.bytes < bytes_before;
+    const std::uint64_t left = bytes_before - row_left_.bytes;
+    if (left > 0 && tile.row_cycles >= port_.words(tile.rows[row_].bytes)) {
+      made_ += static_cast<std::uint32_t>(port_.words(left));
+    }
+    return left > 0;
   }
   void end_row(std::uint64_t now, const CoreTile& tile) {
-    row_full_ = now + tile.row_cycles;
+    row_full_ = now + tile.row_cycles - std::min(made_, tile.row_cycles);
+    made_ = 0;
     if (++row_ < tile.rows.size()) {
       row_left_ = tile.rows[row_];
       return;
@@ -83,6 +90,7 @@ class ClockedDrain {
   std::size_t row_ = 0;
   ClockedTransfer row_left_;
   std::uint64_t row_full_ = 0;  // from this cycle on
+  std::uint32_t made_ = 0;      // cycles of the next row, while one leaves
   bool frees_pixels_ = false, frame_ends_ = false, ended_ = false;
 };
 

@@ -207,7 +207,8 @@ class ClockedRendering {
     row = std::move(left);
   }
 
-  // A row of pixels, then its transactions; the next row is read when the last of them leaves.
+  // A row of pixels, then its transactions. While their words leave, the next row is read, unless
+  // that is faster; it stands still while a transaction waits to leave.
   void drain() {
     if (!draining_) {
       if (waiting_ == 0) return;
@@ -220,8 +221,12 @@ class ClockedRendering {
   }
   void step_drain() {
     const DrainedGroup& group = groups_[drained_];
-    if (reading_ > 0) {
-      --reading_;
+    if (leaving_ && port_.sending()) {
+      if (reads_beside_) read();
+      return;
+    }
+    if (!leaving_ && reading_ > 0) {
+      read();
       return;
     }
     if (clearing_) {
@@ -232,13 +237,22 @@ class ClockedRendering {
       return;
     }
     // The row stands in a register: its transactions leave.
-    if (!port_.write(groups_[drained_].rows[row_at_])) return;
-    if (++row_at_ < group.rows.size()) {
-      reading_ = group.row_cycles - 1;
-      return;
+    ClockedTransfer& row = groups_[drained_].rows[row_at_];
+    const std::uint64_t bytes = row.bytes;
+    const bool has_left = port_.write(row);
+    if (row.bytes == bytes) return;
+    const bool is_last = row_at_ + 1 == group.rows.size();
+    if (!leaving_) {
+      reading_ = is_last ? 0 : group.row_cycles;
+      reads_beside_ = group.row_cycles >= port_.words(bytes);
     }
-    clearing_ = true;
+    leaving_ = !has_left;
+    if (has_left || reads_beside_) read();
+    if (!has_left) return;
+    ++row_at_;
+    clearing_ = is_last;
   }
+  void read() { reading_ -= reading_ > 0 ? 1 : 0; }
 
   const RenderingHardware hw_;
   ClockedPort port_;
@@ -256,8 +270,10 @@ class ClockedRendering {
   std::optional<std::vector<ClockedReach>> row_;  // what is left of the one that is held
   std::deque<std::uint32_t> blended_;             // groups in the last stages: cycles left
   bool draining_ = false, clearing_ = false;
-  std::size_t row_at_ = 0;
-  std::uint32_t reading_ = 0;
+  std::size_t row_at_ = 0;     // that is read or leaves
+  std::uint32_t reading_ = 0;  // cycles left, of it or, while it leaves, of the next
+  bool leaving_ = false;       // a part of the row has left
+  bool reads_beside_ = false;
 };
 
 }  // namespace sgs::test
