@@ -30,7 +30,7 @@ from runs.simulations import (
     shape_of,
     work,
 )
-from tables import PSNR, SCENE, VIEW, Column, Spread, Study
+from tables import PRESET, PSNR, SCENE, VIEW, Column, Spread, Study
 
 VARIANTS = (
     *("paper", "paper_no_vq", "paper_no_cgf", "paper_no_vq_cgf"),
@@ -230,6 +230,74 @@ Makes compare_memories.
     ("results.py compare_memories truck yard",),
     add_memory_arguments,
     make_compare_memories,
+)
+
+
+CONFIGS = REPOSITORY / "testbench" / "configs"
+SLOWER = (0, 1, 2)  # cycles that a lane takes more
+SINGLE_CYCLES, HALF_CYCLES = 3, 2  # of a lane in each precision
+
+
+def slower_lanes(by: int) -> tuple[str, str]:
+    single, half = SINGLE_CYCLES + by, HALF_CYCLES + by
+    return f"lane_latency_cycles={single}", f"half_lane_latency_cycles={half}"
+
+
+def latency_columns(scenes: Sequence[str]) -> tuple[Column, ...]:
+    of_scenes = [
+        (
+            Column(f"{scene}, M cycles", "of the frame", "10^6 cycles", ".3f"),
+            *(
+                Column(f"{scene}, lane +{by} cycles, %", "more than that", "%", "+.1f")
+                for by in SLOWER[1:]
+            ),
+        )
+        for scene in scenes
+    ]
+    return PRESET, *itertools.chain.from_iterable(of_scenes)
+
+
+def add_latency_arguments(to: run_arguments.Parser) -> None:
+    run_arguments.add_scenes(to)
+    run_arguments.add_side_by_side(to)
+    run_arguments.add_view(to)
+    run_arguments.add_size(to, "640x360")
+
+
+def make_lane_latency(arguments: argparse.Namespace) -> None:
+    scenes = find_scenes(arguments.scenes, arguments.cameras)
+    presets = sorted(path.stem for path in CONFIGS.glob("*.json"))
+    size = (arguments.view, arguments.size)
+    runs = [
+        Run(scene, *size, preset, slower_lanes(by), fit_memories=True)
+        for preset, scene, by in itertools.product(presets, scenes, SLOWER)
+    ]
+    outcomes = swept(arguments, "lane_latency", runs)
+    taken = iter([mean(outcome.accepted(), cycles) for outcome in outcomes])
+    rows = []
+    for preset in presets:
+        row: list[object] = [preset]
+        for _ in scenes:
+            first, *slower = (next(taken) for _ in SLOWER)
+            row += [first / 1e6, *(100 * (each / first - 1) for each in slower)]
+        rows.append(tuple(row))
+    views = (view for outcome in outcomes for view in outcome.accepted())
+    by = tables.made_of(arguments.streaminggs, views, scenes)
+    about = (
+        f"{arguments.size} px; lanes of {SINGLE_CYCLES} cycles in single precision, {HALF_CYCLES} in"
+        " half, and both slower by one or two. Memories fitted."
+    )
+    columns = latency_columns([scene.name for scene in scenes])
+    tables.write(arguments.out, "lane_latency", by, columns, rows, about)
+
+
+LANE_LATENCY = Study(
+    "lane_latency",
+    """Every preset with lanes that are one and two cycles slower: cycles of a frame. Makes lane_latency.
+""",
+    ("results.py lane_latency truck yard",),
+    add_latency_arguments,
+    make_lane_latency,
 )
 
 
