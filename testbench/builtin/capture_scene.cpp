@@ -22,8 +22,8 @@ namespace {
 
 constexpr double kRingRadius = 4.4, kEyeHeight = 1.5;
 constexpr int kWidth = 980, kHeight = 545;  // px, of Tanks and Temples
-constexpr double kFieldRadius = 24, kHillRadius = 26, kSkyRadius = 60;
-constexpr double kMostOfSky = 400;  // Gaussians: an even blue needs no more
+constexpr double kFieldRadius = 22, kHillRadius = 24, kSkyRadius = 29;
+constexpr double kMostOfSky = 3000;  // Gaussians: an even blue needs no more
 constexpr int kTrees = 14, kHouses = 8;
 
 glm::dvec3 around(double angle, double radius, double height) {
@@ -83,19 +83,17 @@ ScenePart hills(double share) {
   });
 }
 
+// As far up as a camera of the ring sees: training puts nothing where no picture looks.
 ScenePart sky(double share) {
-  const SurfaceMap ball = sphere_map(glm::dvec3(0.0), kSkyRadius);
-  const SurfaceMap inside = [ball](const glm::dvec2& uv) {
-    return ball({1.0 - uv.x, 0.55 + 0.45 * uv.y});
+  const SurfaceMap inside = [](const glm::dvec2& uv) {
+    return around(2.0 * M_PI * uv.x, kSkyRadius, 3.0 + 8.0 * uv.y);
   };
-  return patch_part(
-      share, inside,
-      [](const SurfacePoint& p) {
-        const double cloud = smooth_step(0.5, 0.75, fractal_noise(p.position * 0.05, 4));
-        return Material{
-            {}, {}, glm::mix(glm::dvec3(0.45, 0.62, 0.85), glm::dvec3(0.93, 0.94, 0.96), cloud)};
-      },
-      {0.08, 1.3, 0.9, 1.0, kNoEdges});
+  const auto paint = [](const SurfacePoint& p) {
+    const double cloud = smooth_step(0.5, 0.75, fractal_noise(p.position * 0.1, 4));
+    return Material{
+        {}, {}, glm::mix(glm::dvec3(0.45, 0.62, 0.85), glm::dvec3(0.93, 0.94, 0.96), cloud)};
+  };
+  return patch_part(share, inside, paint, {0.08, 1.0, 0.9, 1.0, kNoEdges});
 }
 
 // Faint ones in the air that the cameras' ring encloses.
@@ -130,8 +128,7 @@ std::vector<ScenePart> capture_parts(const Plants& plants, std::uint64_t count) 
     add_house(2.0 * M_PI * (i + 0.5) / kHouses, random, 0.32 / kHouses, even);
   even.push_back(hills(0.12));
   even.push_back(floaters(0.01));
-  even.push_back(sky(std::min(0.02, kMostOfSky / static_cast<double>(count))));
-  std::vector<ScenePart> parts;
+  std::vector<ScenePart> parts = {sky(std::min(0.02, kMostOfSky / static_cast<double>(count)))};
   for (ScenePart& part : even) parts.push_back(trained_part(std::move(part)));
   return parts;
 }

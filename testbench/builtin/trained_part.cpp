@@ -12,7 +12,7 @@
 namespace sgs {
 namespace {
 
-constexpr double kSizeMedian = 1.1, kSizeSpread = 0.7;  // of the even size; of its logarithm
+constexpr double kSizeMedian = 1.2, kSizeSpread = 0.7;  // of the even size; of its logarithm
 constexpr double kAspectSpread = 1.4;                   // of the logarithm, one-sided
 constexpr double kFlatness = 0.2, kFlatnessSpread = 0.8;
 constexpr double kTilt = 0.12;  // radians
@@ -22,8 +22,8 @@ constexpr double kDepth = 0.4;  // off the surface, in even sizes
 double spread_opacity(double log_size, Random& random) {
   const double pick = random.uniform() + 0.25 * log_size;
   const double within = random.uniform();
-  if (pick > 0.50) return 0.002 * std::pow(60.0, within);
-  if (pick > 0.25) return 0.12 + 0.48 * within;
+  if (pick > 0.62) return 0.002 * std::pow(60.0, within);
+  if (pick > 0.36) return 0.12 + 0.48 * within;
   return 0.995 - 0.395 * within * within;
 }
 
