@@ -140,11 +140,15 @@ every place of every sweep.
 )
 
 
-VERILOG = [
-    source
-    for folder in ("modules/datapath/rtl", "modules/streaminggs/rendering/rtl")
-    for source in sorted((REPOSITORY / folder).glob("*.v"))
-]
+def verilog_in(*folders: str) -> tuple[pathlib.Path, ...]:
+    return tuple(
+        source for folder in folders for source in sorted((REPOSITORY / folder).glob("*.v"))
+    )
+
+
+VERILOG = verilog_in("modules/datapath/rtl", "modules/streaminggs/rendering/rtl")
+SORTING = verilog_in("modules/streaminggs/sorting/rtl")
+MERGE = verilog_in("modules/streaminggs/merge/rtl")
 TECHNOLOGY = REPOSITORY / "testbench" / "cost" / "technology_32nm.json"
 OSU018 = pathlib.Path("/usr/share/qflow/tech/osu018/osu018_stdcells.lib")
 
@@ -173,7 +177,8 @@ Parts = tuple[tuple[str, float], ...]  # kinds and how many
 class Module:
     """top, parameters: in Verilog. charged: parts of the ledger, or the datapath of `exact` that
     has them beside so many lanes. published: what published constants have for it. apart: modules
-    in it that are counted by themselves. interval: cycles that its input `phase` counts."""
+    in it that are counted by themselves. interval: cycles that its input `phase` counts. sources:
+    what is read with it; mappers choose by order, so another file there moves a number."""
 
     name: str
     top: str
@@ -183,6 +188,7 @@ class Module:
     apart: tuple[str, ...] = ()
     lanes: int = 0
     interval: int = 1
+    sources: tuple[pathlib.Path, ...] = VERILOG
 
 
 def one(kind: str) -> Parts:
@@ -197,6 +203,14 @@ HALF = parameters(EXPONENT_BITS=5, FRACTION_BITS=10)
 COMPARES = parameters(HAS=3)
 LANE, CHAINS = one("fp32_lane"), one("fp32_chaining_lane")
 LANES = ("lane", "fp32_lane")
+EXCHANGE = (("comparator", 2), ("exchange_bit", 72))
+PUBLISHED_EXCHANGE = (("comparator", 0.5), ("exchange_bit", 32))
+# As modules/streaminggs/heap_ledger.h: keys of 256 bits, nodes of 522.
+HEAP_LEVEL = (
+    ("register_bit", 256 + 522),
+    ("select_bit", 7 * 256 + (4 + 2 + 1) * 522),
+    ("comparator", 4),
+)
 # The part whose energy is published: a multiplier and an adder. All others are so much of it.
 OF_KNOWN_ENERGY = "fp32 lane that only chains"
 MODULES = (
@@ -276,9 +290,27 @@ MODULES = (
     ),
     Module("dispatcher", "dispatcher", (("adder", 4),)),
     Module("draining of a group", "drain", ()),
+    # Of the sorting network, which has 80 of them: 64 bits of a key are compared.
+    Module(
+        "compare-exchange of keys, place of 8 bits", "compare_exchange", EXCHANGE, sources=SORTING
+    ),
+    Module(
+        "compare-exchange of 16 bits, 16 bits beside",
+        "compare_exchange",
+        PUBLISHED_EXCHANGE,
+        parameters=parameters(KEY_BITS=16, PLACE_BITS=16),
+        sources=SORTING,
+    ),
+    Module(
+        "level of the heap",
+        "heap_level",
+        HEAP_LEVEL,
+        parameters=parameters(LEVEL=4),
+        sources=MERGE,
+    ),
 )
 
-MODULE = Column("module", "in modules/datapath/rtl or modules/streaminggs/rendering/rtl")
+MODULE = Column("module", "in modules/datapath/rtl, or in rtl of a unit in modules/streaminggs")
 SYNTHESIS_COLUMNS = (
     Column("library", "file of its cells"),
     MODULE,
@@ -354,7 +386,7 @@ class Mapped:
 def in_gates(module: Module, folder: pathlib.Path) -> pathlib.Path:
     """Its logic in gates of no library; what is counted apart is beyond its ports. Raises
     ValueError, Failure."""
-    sources = " ".join(map(str, VERILOG))
+    sources = " ".join(map(str, module.sources))
     set_all = "".join(f"chparam -set {p} {module.top}; " for p in module.parameters)
     black = f"blackbox {' '.join(module.apart)}; " if module.apart else ""
     beyond = "".join(f"expose -evert t:{name}; " for name in module.apart)
@@ -538,7 +570,7 @@ def make_synthesis(arguments: argparse.Namespace) -> None:
         ):
             mapped.append(mapped_to(library, module, gates, mapping, folder))
     program = arguments.streaminggs
-    by = tables.made(program, [program_provenance(program)], [*VERILOG, *paths])
+    by = tables.made(program, [program_provenance(program)], [*VERILOG, *SORTING, *MERGE, *paths])
     tables.write(arguments.out, "synthesis", by, SYNTHESIS_COLUMNS, [each.row() for each in mapped])
     run = simulations.Run(find_scene(SMALL_SCENE), config="exact")
     datapaths = simulations.simulate(program, run).accepted()[0]["datapath"]
