@@ -168,7 +168,6 @@ void ChunkCuller::run_hand_out() {
     }
     if (chunk.first != run_end_ || run_first_ == run_end_) {
       cut_run(true);
-      ++counters_.chunk_runs;
       run_first_ = chunk.first;
     }
     run_end_ = chunk.first + chunk.count;

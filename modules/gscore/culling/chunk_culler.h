@@ -37,9 +37,8 @@ class ChunkCuller : public sc_core::sc_module {
   struct Counters : CounterSet {
     Counter nodes{*this, "nodes", "nodes", "of the chunk tree read and opened"};
     Counter chunks{*this, "chunks", "chunks", "whose boxes touch the frame"};
-    Counter chunk_runs{*this, "chunk_runs", "runs", "of these, chunks side by side in memory"};
     Counter slices{*this, "slices", "slices", "handed out"};
-    Counter gaussians{*this, "gaussians", "Gaussians", "of these"};
+    Counter gaussians{*this, "gaussians", "Gaussians", "in these"};
     std::uint64_t passes = 0;
     std::uint64_t looked_ahead = 0;  // nodes asked for of those that are tested
   };
