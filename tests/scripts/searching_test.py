@@ -349,7 +349,7 @@ class Recipes(InFolder):
     FREE = ("rendering.clusters=1,2,4", "hfus=2,4", "hfu.ffu_lanes=8,16")
 
     def test_the_smallest(self):
-        fast = ["min(fps) >= 0.6 x exact"]
+        fast = ["min(fps) >= 0.7 x exact"]
         self.check("smallest", "0,1", fast, *self.FREE)
 
     def test_the_best_in_an_area(self):

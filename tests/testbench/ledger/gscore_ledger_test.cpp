@@ -43,7 +43,7 @@ const std::vector<Build>& builds() {
        7 * (22 + 4),
        64,
        8 * (4 + 3 + 10),
-       7,
+       5,
        3,
        24},
       // 2^11 blocks of 8 lines of 6 entries; 12 levels; ends of lists in 5 B, of subsets in 7 B.
@@ -63,8 +63,8 @@ const std::vector<Build>& builds() {
        12 * (15 + 4),
        96,
        8 * (8 + 2 + 7),
-       9,
-       4,
+       7,
+       3,
        96}};
   return all;
 }
