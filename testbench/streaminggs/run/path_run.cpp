@@ -116,10 +116,12 @@ class DrawnFrames {
     fmt::print("\n{} frames along {}: frames a second worst {} (frame {}), p99 {}, median {}\n",
                s.frames, job_.name, rate_in_words(s.worst_fps), s.worst_frame,
                rate_in_words(s.p99_fps), rate_in_words(s.median_fps));
-    fmt::print(
-        "{} mJ a frame; at {} frames a second {} J a second: {} for frames, {} between them\n",
-        rounded(1e3 * s.energy_j / static_cast<double>(s.frames)), rounded(s.rate),
-        rounded(s.frames_w + s.idle_w), rounded(s.frames_w.middle), rounded(s.idle_w.middle));
+    // Late frames begin fewer a second than are asked for.
+    const double frames = static_cast<double>(s.frames);
+    const double begun = s.late > 0 ? frames * s.frames_w.middle / s.energy_j : s.rate;
+    fmt::print("{} mJ a frame; {} W at {} frames a second: {} for frames, {} between them\n",
+               rounded(1e3 * s.energy_j / frames), rounded(s.frames_w + s.idle_w), rounded(begun),
+               rounded(s.frames_w.middle), rounded(s.idle_w.middle));
     if (s.late > 0) {
       fmt::print("{} of {} frames take longer than 1/{} s: the next one begins late\n", s.late,
                  s.frames, rounded(s.rate));
