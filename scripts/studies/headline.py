@@ -190,7 +190,8 @@ def about(compared_scenes: Sequence[str], tuned_scenes: Sequence[str]) -> str:
         f"machine here reaches. Beside gscore: {', '.join(compared_scenes)}, two sizes each. "
         f"{named(TUNED_PAIR)}: {', '.join(tuned_scenes)}, small pictures, each tuned to either "
         "machine. Both searched: each order with the fastest machine that a search found in the area "
-        "of paper, untuned scenes. Splats at one depth blend in the order in which a machine stores them."
+        "of paper, untuned scenes. Splats at one depth blend in the order in which a machine stores "
+        "them."
     )
 
 
