@@ -425,7 +425,7 @@ TEST_CASE("dataset: names that say nothing here are counted") {
     const Dataset read = open_dataset(angles.path(""));
     return read.notes.empty() ? "" : read.notes[0].second;
   };
-  const Camera& camera = open_dataset(scratch.path("")).views[0].camera;
+  const Camera camera = open_dataset(scratch.path("")).views[0].camera;
   const double angle = 2 * std::atan(camera.width / 2.0 / camera.focal_x);
   CHECK(note_with(angle).empty());
   CHECK(note_with(1.1 * angle) == "camera_angle_x, since fl_x says otherwise (10 times)");
