@@ -73,7 +73,8 @@ def heading_of_path(run: Run) -> tuple[str, str]:
         f"p99 {rate(summary['p99_fps'])}, median {rate(summary['median_fps'])}",
         f"{summary['late_frames']} late at {summary['frame_rate']:g} a second",
         *(f"{empty} hold no Gaussian" for empty in [summary["empty_frames"]] if empty),
-        f"{summary['energy_a_second_j']:.3g} J a second",
+        f"{summary['energy_a_second_j']:.3g} J a second"
+        + ("" if summary.get("memory_known", True) else " without the memory"),
         f"machine {first['config']['machine']}",
         f"commit {first['provenance']['commit']}",
     )

@@ -69,7 +69,7 @@ COLUMNS: dict[str, tuple[str, ...]] = {
     "limit": ("limit.bytes_read_once", "limit.ratio"),
     "energy": (
         *("energy.total_j", "energy.mean_power_w", "energy.dram_j", "energy.clock_j"),
-        *("energy.logic_leakage_j", "energy.sram_leakage_j"),
+        *("energy.logic_leakage_j", "energy.sram_leakage_j", "energy.memory_known"),
     ),
     "area": (
         *("area_mm2.total", "area_mm2.bands.total.low", "area_mm2.bands.total.high"),

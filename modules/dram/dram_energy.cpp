@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "algorithm/files/input_error.h"
 #include "modules/dram/device_timing.h"
 
 namespace sgs {
@@ -186,6 +187,50 @@ DramEnergy dram_energy(const Memspec& m, const Memspec::Currents& c,
   return sum;
 }
 
+namespace {
+
+// As DramEnergyBand::not_stated. I/O: the memory's, or a number that is given, were it 0.
+std::string not_stated(const Memspec::Currents& c, const std::vector<RankActivity>& ranks,
+                       bool io_stated) {
+  using Rail = Memspec::Rail;
+  using Count = std::uint64_t RankActivity::*;
+  struct Use {
+    const char* name;
+    double Rail::*ma;
+    std::vector<Count> counts;
+  };
+  const auto takes_place = [&](Count count) {
+    return std::any_of(ranks.begin(), ranks.end(),
+                       [&](const RankActivity& rank) { return rank.*count > 0; });
+  };
+  const auto is_needed = [&](const std::vector<Count>& counts) {
+    return std::any_of(counts.begin(), counts.end(), takes_place);
+  };
+  using Done = RankActivity;
+  const std::vector<Count> bursts = {&Done::reads, &Done::writes};
+  std::vector<std::string> missing;
+  bool any = false;
+  for (const Use& use : std::vector<Use>{
+           {"idd0", &Rail::idd0, {&Done::activates}},
+           {"idd2p", &Rail::idd2p, {&Done::precharged_power_down_cycles}},
+           {"idd2n", &Rail::idd2n, {&Done::precharged_cycles}},
+           {"idd3p", &Rail::idd3p, {&Done::active_power_down_cycles}},
+           {"idd3n", &Rail::idd3n, {&Done::active_cycles}},
+           {"idd4r", &Rail::idd4r, {&Done::reads}},
+           {"idd4w", &Rail::idd4w, {&Done::writes}},
+           {"idd5", &Rail::idd5, {&Done::refreshes_all, &Done::refreshes_bank}},
+           {"idd6", &Rail::idd6, {&Done::self_refresh_cycles}}}) {
+    const bool stated = c.vdd1_ma.*use.ma > 0 || c.vdd2_ma.*use.ma > 0;
+    any = any || stated;
+    if (!stated && is_needed(use.counts)) missing.emplace_back(use.name);
+  }
+  if (!any && !missing.empty()) missing = {"currents"};
+  if (!io_stated && is_needed(bursts)) missing.emplace_back("I/O energy (dram.io_pj_per_bit)");
+  return join(missing, " and ");
+}
+
+}  // namespace
+
 DramEnergyBand dram_energy_band(const Memspec& m, const DramConfig& config,
                                 const std::vector<RankActivity>& ranks,
                                 const std::array<RegionActivity, 256>& regions) {
@@ -204,7 +249,9 @@ DramEnergyBand dram_energy_band(const Memspec& m, const DramConfig& config,
     band.least_pj = first ? least_pj : std::min(band.least_pj, least_pj);
     band.most_pj = std::max(band.most_pj, by_currents_pj * spread + bits * io.high);
     band.by_current_set_pj[name] = energy.total_pj();
-    if (name == chosen) static_cast<DramEnergy&>(band) = energy;
+    if (name != chosen) continue;
+    static_cast<DramEnergy&>(band) = energy;
+    band.not_stated = not_stated(currents, ranks, config.io_pj_per_bit || m.io_pj_per_bit > 0);
   }
   // With a band of no width, sums in another order may differ in their last digit.
   band.least_pj = std::min(band.least_pj, band.total_pj());

@@ -111,6 +111,9 @@ struct DramEnergyBand : DramEnergy {
   std::map<std::string, double> by_current_set_pj;  // all that are published
   // Of all sets, with the ends of their spread and of the I/O's band.
   double least_pj = 0, most_pj = 0;
+  // Numbers that the memspec lacks and that the activity needs: "currents and I/O energy", "idd6".
+  // Empty: the energy is known.
+  std::string not_stated;
 };
 DramEnergyBand dram_energy_band(const Memspec& memspec, const DramConfig& config,
                                 const std::vector<RankActivity>& ranks,

@@ -261,7 +261,7 @@ class Conversion {
     take_rail("vdd2_v", {"vdd2", "vdd2h", "vdd"}, "vdd2_ma", &CurrentName::second);
     if (!any)
       notes.push_back(
-          fmt::format("{}: no currents: the memory's energy is that of its I/O alone", origin_));
+          fmt::format("{}: no currents: the memory's energy is not known", origin_));
     if (first_of("mempowerspec", {"idd02l", "idd4r2l", "idd3n2l"}) > 0)
       notes.push_back(fmt::format("{}: currents of VDD2L are not counted", origin_));
     ours_["currents"]["dramsys"] = set;

@@ -373,7 +373,7 @@ def of_memories(results: Results) -> Made:
         for number_of, family in enumerate(members.values()):
             colour = line_style(number_of)["color"]
             for at, memory in enumerate(family):
-                rows = data.where(scene=scene, memory=memory)
+                rows = [row for row in data.where(scene=scene, memory=memory) if row["mJ"]]
                 rate, mj = ([number(row[column]) for row in rows] for column in ("frames/s", "mJ"))
                 axes.plot(rate, mj, label=memory, **line_style(at) | {"color": colour})
                 sizes = [20 * number(row["channels"]) for row in rows]

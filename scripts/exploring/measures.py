@@ -30,7 +30,7 @@ import re
 import statistics
 from collections.abc import Callable, Mapping, Sequence
 
-from runs.simulations import sram_bytes, value_at
+from runs.simulations import check_memory_known, sram_bytes, value_at
 
 Views = Sequence[dict]
 
@@ -84,6 +84,8 @@ def number_at(view: dict, path: str) -> float:
     """A number of the report; a picture that is equal has PSNR without end. Raises ValueError."""
     if path in COMPUTED:
         return COMPUTED[path](view)
+    if path.startswith("energy."):
+        check_memory_known(view)
     value = value_at(view, path)
     if value is None and path == NAMES["psnr_db"] and "image" in view:
         return math.inf

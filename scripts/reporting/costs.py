@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from reporting import charts
 from reporting.charts import number, percent
+from runs.simulations import memory_known
 
 MOST_COMPONENTS = 14  # of energy; the rest is one line
 KINDS_OF_ENERGY = (
@@ -23,6 +24,11 @@ def amounts(costs: dict, suffix: str) -> dict[str, float]:
     """Middle values by component, without the total."""
     names = [name for name in costs["bands"] if name != f"total{suffix}"]
     return {name.removesuffix(suffix): costs[name] for name in names}
+
+
+def without_memory(view: dict) -> str:
+    """Words behind joules and watts; empty where the memory's are known."""
+    return "" if memory_known(view) else " without the memory"
 
 
 def kinds_of_energy(view: dict) -> dict[str, float]:
@@ -86,7 +92,7 @@ def energy(view: dict) -> str:
         "_j",
         1e3,
         "mJ",
-        "Energy of the frame by component; lines: what the sources allow",
+        f"Energy of the frame{without_memory(view)} by component; lines: what the sources allow",
         component_colours(view),
     )
 

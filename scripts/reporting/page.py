@@ -54,7 +54,7 @@ def key_numbers(view: dict) -> str:
         ),
         (
             "energy",
-            f"{number(1e3 * energy['total_j'])} mJ",
+            f"{number(1e3 * energy['total_j'])} mJ{costs.without_memory(view)}",
             f"{number(1e3 * joules['low'])} .. {number(1e3 * joules['high'])} mJ; "
             f"{number(energy['mean_power_w'])} W",
         ),

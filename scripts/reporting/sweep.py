@@ -26,11 +26,12 @@ MEMORIES = {
 }
 WITH_PHY = "area_mm2.with_memory_interface.middle"  # results of earlier programs lack it
 BINDING = "binding.unit"  # of PATHS the one that is no number
+ENERGY, MEMORY_KNOWN = "energy.total_j", "energy.memory_known"
 # Of a report, and columns of the table of the same names.
 PATHS = (
     "frame.cycles",
     "frame.fps",
-    "energy.total_j",
+    ENERGY,
     "area_mm2.total",
     "image.psnr_db",
     "dram.bytes",
@@ -101,6 +102,11 @@ def is_result(point: Point) -> bool:
     )
 
 
+def with_known_energy(told: dict[str, object], memory_known: bool) -> dict[str, object]:
+    """Joules without the memory's are no machine's: they count as more than any other's."""
+    return told if memory_known or ENERGY not in told else {**told, ENERGY: math.inf}
+
+
 def point_of_line(line: str, place: str) -> Point:
     """Raises ValueError where it is no result."""
     try:
@@ -113,7 +119,10 @@ def point_of_line(line: str, place: str) -> Point:
             {key: text_of(value) for key, value in asked["set"].items()},
             result["status"],
             text_of(result.get("reason", "")),
-            {path: value for path in PATHS if (value := value_at(report, path)) is not None},
+            with_known_energy(
+                {path: value for path in PATHS if (value := value_at(report, path)) is not None},
+                value_at(report, MEMORY_KNOWN) is not False,
+            ),
             {key: text_of(value) for key, value in flat(report.get("config", {}))},
             text_of(provenance.get("commit", "")),
             tuple(text_of(provenance.get(f"technology{of}", "")) for of in ("", "_xxh64")),
@@ -168,11 +177,14 @@ def read_table(path: pathlib.Path) -> list[Point]:
             {name: cells[name] for name in OF_POINT if name in cells},
             settings,
             cells.get("status", ""),
-            told={
-                path: number_in(cells[column])
-                for path, column in ((path, MEMORIES.get(path, path)) for path in PATHS)
-                if column in cells
-            },
+            told=with_known_energy(
+                {
+                    path: number_in(cells[column])
+                    for path, column in ((path, MEMORIES.get(path, path)) for path in PATHS)
+                    if column in cells
+                },
+                cells.get(MEMORY_KNOWN) != "false",
+            ),
             resolved=settings,
         )
         if not is_result(point):
@@ -223,7 +235,7 @@ MEASURES: dict[str, Callable[[Sequence[Point]], float]] = {
     TIME: lambda points: sum(1e3 / point.told["frame.fps"] for point in points),
     "cycles": lambda points: total(points, "frame.cycles"),
     "fps": lambda points: min(point.told["frame.fps"] for point in points),
-    "mJ": lambda points: 1e3 * total(points, "energy.total_j"),
+    "mJ": lambda points: 1e3 * total(points, ENERGY),
     "mm2": lambda points: max(point.told["area_mm2.total"] for point in points),
     "mm2 with PHY": lambda points: max(point.told.get(WITH_PHY, math.nan) for point in points),
     PICTURE: lambda points: min(map(psnr_db, points)),
@@ -259,12 +271,14 @@ class Machine:
         }
 
 
-def cell(value: float) -> str:
+def cell(measure: str, value: float) -> str:
     if isinstance(value, int):
         return str(value)
     if math.isnan(value):
         return ""
-    return "equal" if value == math.inf else f"{value:.6g}"
+    if value == math.inf:
+        return "equal" if measure == PICTURE else "not known"
+    return f"{value:.6g}"
 
 
 def varying(machines: Sequence[Machine]) -> list[str]:
@@ -281,7 +295,7 @@ def table_of(machines: Sequence[Machine], best: Sequence[bool], name: str) -> Ta
         (
             str(number),
             *(machine.settings.get(key, "") for key in keys),
-            *(cell(machine.value(measure)) for measure in MEASURES),
+            *(cell(measure, machine.value(measure)) for measure in MEASURES),
             binds(machine.points),
             "yes" if kept else "",
         )

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from reporting import charts
 from reporting.charts import escaped, number, rate
-from reporting.costs import KINDS_OF_ENERGY, WAYS, kinds_of_energy, ways_of_bytes
+from reporting.costs import KINDS_OF_ENERGY, WAYS, kinds_of_energy, ways_of_bytes, without_memory
 from reporting.folder import Run, Table, ViewFiles
 from tables import REQUIRED, measure_of
 from reporting.page import mm2_with_phy, quality
@@ -222,7 +222,8 @@ def energy_of_views(runs: Sequence[Run]) -> str:
             (kind, kinds[kind] / most, f"{text}: {number(1e3 * kinds[kind])} mJ")
             for kind, text in KINDS_OF_ENERGY
         ]
-        rows.append((label, charts.bar(parts), (number(1e3 * view["energy"]["total_j"]),)))
+        total = f"{number(1e3 * view['energy']['total_j'])}{without_memory(view)}"
+        rows.append((label, charts.bar(parts), (total,)))
     return charts.legend(KINDS_OF_ENERGY) + charts.bars(("view", "mJ"), rows, "Energy of a frame")
 
 
@@ -260,8 +261,7 @@ def table_of_views(runs: Sequence[Run]) -> Table:
                     quality(view),
                     number(view["dram"]["bytes"] / 1e6),
                     number(view["dram"]["bus_bytes"] / 1e6),
-                    number(1e3 * energy["total_j"]),
-                    number(energy["mean_power_w"]),
+                    *(f"{number(of)}{without_memory(view)}" for of in (1e3 * energy["total_j"], energy["mean_power_w"])),
                     number(view["area_mm2"]["total"]),
                     mm2_with_phy(view),
                     view["binding"]["unit"],

@@ -17,7 +17,7 @@ from typing import IO
 from runs import run_arguments
 from runs.keeper import Keeper
 from runs.scenes import Scene, answered, find_scenes, shared_names, view_numbers_there
-from runs.simulations import Run, binders, decibels, mean, mm2
+from runs.simulations import Run, binders, decibels, joules, mean, mm2
 
 OBJECTS = ("truck", "playbot", "builtin:object")  # whatever their parameters
 SIZES, OBJECT_SIZES = ("640x360", "980x545"), ("640x360", "800x800")
@@ -220,7 +220,7 @@ def simulated(views: Views) -> Measured:
     return Measured(
         seconds=tuple(v["frame"]["time_s"] for v in views),
         busiest_seconds=tuple(map(busiest_seconds, views)),
-        joules=tuple(v["energy"]["total_j"] for v in views),
+        joules=tuple(map(joules, views)),
         bytes_by_region=mean_by_name([v["dram"]["bus_bytes_by_region"] for v in views]),
         joules_by_component=mean_by_name([component_joules(v) for v in views]),
         busy=mean_by_name([busy_shares(v) for v in views]),

@@ -24,6 +24,7 @@ from runs.simulations import (
     group_assignments,
     joules,
     mean,
+    memory_known,
     mm2,
     region_bytes,
     resolved_config,
@@ -172,18 +173,19 @@ MEMORY_COLUMNS = (
     SCENE,
     Column("frames/s", "at the machine's clock, frames alone; mean cycles of the views", "", ".0f"),
     Column("of peak", "share of the peak that the frame's bus bytes take", "", ".0%"),
-    Column("mJ", "of the frame, with DRAM and its I/O", "mJ", ".2f"),
+    Column("mJ", "of the frame, with DRAM and its I/O; empty: not known", "mJ", ".2f"),
     Column("of it DRAM", "energy of the DRAM and its I/O", "mJ", ".2f"),
     Column("binds", "busiest resource and its share; what holds the frame where it is another"),
 )
 
 
 def memory_row(run: Run, memory: str, channels: int, views: Views) -> tuple:
+    known = all(map(memory_known, views))
     return (
         *(memory, channels, views[0]["dram"]["peak_gb_s"], run.scene.name),
         1 / mean(views, lambda v: v["frame"]["time_s"]),
         mean(views, lambda v: v["dram"]["of_peak"]),
-        *(mean(views, joules) / MJ, mean(views, dram_joules) / MJ),
+        *(mean(views, of) / MJ if known else None for of in (joules, dram_joules)),
         binders(views),
     )
 

@@ -158,8 +158,8 @@ CostResult energy_of(const FrameResult& frame, const Technology& technology) {
                  technology.sram.leakage_mw(queues)) +
             write_queue_energy_j(frame, queues, technology.sram));
   }
-  const MemoryResult& dram = frame.memory;
-  add(energy, "dram", {dram.energy_least_j, dram.energy_j, dram.energy_most_j});
+  if (const MemoryResult& dram = frame.memory; dram.energy_not_stated.empty())
+    add(energy, "dram", {dram.energy_least_j, dram.energy_j, dram.energy_most_j});
   return energy;
 }
 
@@ -178,8 +178,8 @@ CostResult rest_energy_of(const FrameResult& frame, const Rest& rest, double sec
   add_leakage(energy, frame.machine, seconds, technology);
   if (technology.memory_interface.counted)
     add(energy, kMemoryInterface, seconds * resting_interface_w(frame, rest, technology));
-  const DramEnergyBand& dram = rest.energy;
-  add(energy, "dram", kPj * Band{dram.least_pj, dram.total_pj(), dram.most_pj});
+  if (const DramEnergyBand& dram = rest.energy; dram.not_stated.empty())
+    add(energy, "dram", kPj * Band{dram.least_pj, dram.total_pj(), dram.most_pj});
   return energy;
 }
 

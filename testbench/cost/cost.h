@@ -34,7 +34,7 @@ CostResult area_by_owner(const FrameResult& frame, const Technology& technology)
 
 // Joules of the operations, by component; of the accesses, by use of on-chip memory; of the clock
 // (`clock`); of leakage over the frame (`logic_leakage`, `sram_leakage`); and the memory's
-// (`dram`). Throws InputError as above.
+// (`dram`), none where that is not known. Throws InputError as above.
 CostResult energy_of(const FrameResult& frame, const Technology& technology);
 
 // Power of PHY and controller between frames, whether the table counts them or not: while the
@@ -42,8 +42,8 @@ CostResult energy_of(const FrameResult& frame, const Technology& technology);
 Band resting_interface_w(const FrameResult& frame, const Rest& rest, const Technology& technology);
 
 // Joules between a frame and the next one, in which the machine's clock stands: leakage
-// (`logic_leakage`, `sram_leakage`), the memory's (`dram`), and `memory_interface` where the table
-// counts it.
+// (`logic_leakage`, `sram_leakage`), the memory's (`dram`) where it is known, and
+// `memory_interface` where the table counts it.
 CostResult rest_energy_of(const FrameResult& frame, const Rest& rest, double seconds,
                           const Technology& technology);
 

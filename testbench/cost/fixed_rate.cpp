@@ -21,6 +21,8 @@ FixedRate at_rate(double per_s, const FrameResult& frame, const Band& energy_j,
   rate.energy_j = energy_j + rate.rest_j.total;
   rate.memory_interface_w = resting_interface_w(frame, rest, technology);
   rate.memory_interface_counted = technology.memory_interface.counted;
+  const std::string& of_frame = frame.memory.energy_not_stated;
+  rate.memory_not_stated = of_frame.empty() ? rest.energy.not_stated : of_frame;
   return rate;
 }
 

@@ -14,6 +14,7 @@ struct FixedRate {
   Band energy_j;                          // of frame and rest
   Band memory_interface_w;                // in the rest
   bool memory_interface_counted = false;  // it is part of these joules
+  std::string memory_not_stated;          // as MemoryResult has it, of frame and rest
   Band power_w() const { return per_s * energy_j; }
 };
 

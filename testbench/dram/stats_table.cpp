@@ -58,6 +58,10 @@ std::string stats_table(const DramStats& s) {
   const auto energy = [&](const char* name, double pj) {
     add(text, "{:<24} {:>14.3f}  uJ\n", name, pj / 1e6);
   };
+  if (!s.energy.not_stated.empty()) {
+    add(text, "{:<24} not known: the memspec does not state {}\n", "energy", s.energy.not_stated);
+    return text;
+  }
   energy("energy", parts.total_pj());
   energy("  activate, precharge", parts.activate_pj);
   energy("  read", parts.read_pj);

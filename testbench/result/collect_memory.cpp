@@ -81,6 +81,7 @@ MemoryResult collect_memory(const DramStats& stats, const Regions& regions,
   m.energy_j = stats.energy.total_pj() * kPj;
   m.energy_least_j = stats.energy.least_pj * kPj;
   m.energy_most_j = stats.energy.most_pj * kPj;
+  m.energy_not_stated = stats.energy.not_stated;
   m.transactions = stats.traffic.total().transactions;
   m.row_hits = all.rows.of(RowOutcome::kHit);
   m.row_misses = all.rows.of(RowOutcome::kMiss);

@@ -96,7 +96,7 @@ void serialize(Archive& a, MemoryResult& r) {
     r.row_misses, r.row_conflicts, r.refreshes, r.bandwidth_gb_s, r.busy_bandwidth_gb_s,
     r.peak_gb_s, r.read_latency_mean_ns, r.read_latency_p50_ns, r.read_latency_p99_ns, r.channels,
     r.write_queue_entries, r.bus_utilisation, r.remedy, r.energy_j, r.energy_least_j,
-    r.energy_most_j, r.energy_by_current_set_j, r.energy_by_region_j);
+    r.energy_most_j, r.energy_not_stated, r.energy_by_current_set_j, r.energy_by_region_j);
 }
 template <class Archive>
 void serialize(Archive& a, FrameResult& r) {

@@ -122,6 +122,7 @@ struct MemoryResult {
   double bus_utilisation = 0;  // data bus of the busiest channel, 0 to 1
   Remedy remedy;               // for more of it
   double energy_j = 0, energy_least_j = 0, energy_most_j = 0;
+  std::string energy_not_stated;  // what its memspec lacks for that; empty: it is known
   std::vector<std::pair<std::string, double>> energy_by_current_set_j, energy_by_region_j;
 };
 

@@ -78,6 +78,14 @@ class Measures(unittest.TestCase):
                 found = measures.measure(text)
                 self.assertEqual((found.text, found.of(views)), (name, value))
         self.assertEqual(measures.requirement("joules <= 3").name, "sum(joules) <= 3")
+
+    def test_joules_without_the_memory_s_are_no_number(self):
+        energy = {"total_j": 3, "mean_power_w": 4, "memory_known": False}
+        view = {**self.view(10, 1.5), "energy": energy, "memory_interface": {"memspec": "mine"}}
+        for text in ("joules", "max(watts)", "mean(energy.mean_power_w)"):
+            with self.subTest(text), self.assertRaisesRegex(ValueError, "known: mine does not"):
+                measures.measure(text).of([view])
+        self.assertEqual(measures.measure("cycles").of([view]), 10)
         for text in ("fps", "frame.fps", "psnr_db", "watts"):
             with self.subTest(text), self.assertRaisesRegex(ValueError, r"expected min\("):
                 measures.measure(text)

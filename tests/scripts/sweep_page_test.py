@@ -91,6 +91,16 @@ class Read(InFolder):
         expected = [[float(f"{c / 1e6:.6g}"), c, mm2, 1e3 * j] for c, mm2, j in points]
         self.assertEqual([[values[i] for i in at] for values in facts["points"]], expected)
 
+    def test_joules_without_the_memory_s_win_nothing(self):
+        less = line(200, 5.0, 0.5, set={"hfus": 1})
+        without = less.replace('"total_j": 0.5', '"total_j": 0.5, "memory_known": false')
+        for other, kept in ((less, [True, True]), (without, [True, False])):
+            status, page = self.page(line(100, 5.0, 1.0) + other)
+            self.assertEqual(status, 0)
+            facts = json.loads(html.unescape(re.search('data-points="([^"]*)"', page)[1]))
+            self.assertEqual(facts["best"], kept)
+            self.assertEqual("not known" in page, not kept[1])
+
     def test_the_picture_counts_where_pictures_differ(self):
         for other_db, kept in ((30.0, [True, False]), (None, [True, True])):
             text = line(200, 5, 1, set={"hfus": 1}).replace('"psnr_db": null', '"psnr_db": 30.0')

@@ -201,6 +201,42 @@ TEST_CASE("configuration: simulate notes what tb_dram notes of the memory, and c
   CHECK(interface["area_known"] == true);
 }
 
+TEST_CASE("configuration: a memory whose energy is not stated has none, and every line says so") {
+  const ScratchFolder scratch;
+  Json memspec = Json::parse(run_streaminggs({"describe", "--memspec", "lpddr4_3200_8gb"}).out,
+                             nullptr, true, true);
+  for (auto& [name, set] : memspec["currents"].items())
+    for (const char* rail : {"vdd1_ma", "vdd2_ma"})
+      for (auto& [current, ma] : set[rail].items()) ma = 0;
+  memspec["io_pj_per_bit"] = memspec["io_pj_per_bit_low"] = memspec["io_pj_per_bit_high"] = 0;
+  const std::string file = scratch.write("mine.json", memspec.dump());
+  const auto run = [&](const Arguments& frames) {
+    const Outcome done = run_streaminggs(with_settings(
+        joined({"simulate", "builtin:object?n=50", "--size", "32x18", "--out", scratch.path("")},
+               frames),
+        {"dram.memspec=" + file}));
+    INFO(done.err);
+    REQUIRE(done.status == 0);
+    CHECK_THAT(done.out, Contains("the memory's energy is not known: lpddr4_3200_8gb does not "
+                                  "state currents and I/O energy (dram.io_pj_per_bit)\n"));
+    CHECK_THAT(done.out, !Contains("of it DRAM"));
+    return done.out;
+  };
+  const auto report = [&] { return Json::parse(std::ifstream(scratch.path("report.json"))); };
+  const std::string still = run({"--view", "0", "--frame-rate", "90"});
+  CHECK_THAT(still, Contains(") mJ without the memory\n"));
+  CHECK_THAT(still, Contains(" W without the memory: ") && Contains(" >0.0"));
+  const Json view = report()["views"][0];
+  for (const Json& costs : {view["energy"], view["fixed_rates"][0]["rest"]}) {
+    CHECK_FALSE(costs.contains("dram_j"));
+  }
+  CHECK(view["energy"]["memory_known"] == false);
+  CHECK(view["fixed_rates"][0]["memory_known"] == false);
+  CHECK_THAT(run({"--path", "builtin:path", "--frames", "2"}),
+             Contains("90 frames a second without the memory: "));
+  CHECK(report()["summary"]["memory_known"] == false);
+}
+
 TEST_CASE("configuration: the memory's interface is of a memory that is named") {
   struct Row {
     Arguments settings;

@@ -106,6 +106,12 @@ void visit_energy(ReportVisitor& r, const ViewResult& view) {
               "Middle energy of a component: logic, a use of on-chip memory, clock, leakage, DRAM.",
               "Middle energy of the frame.");
   r("mean_power_w", "W", "`energy.total_j` over the frame time.", view.mean_power_w());
+  const bool known = view.run.memory.energy_not_stated.empty();
+  r("memory_known", "bool",
+    "The memspec states all that the memory's energy is made of. If not, this is without the "
+    "memory, and no entry follows.",
+    known);
+  if (!r.has(known)) return;
   r.object("dram_by_current_set_j", [&] {
     r.each(view.run.memory.energy_by_current_set_j, [&](const auto& set) {
       r({"SET", set.first}, "J", "Energy of the memory by this published set of currents.",
@@ -126,6 +132,10 @@ void visit_fixed_rate(ReportVisitor& r, const FixedRate& rate) {
   r("held", "bool", "The frame is done before the next one begins. If not, no entry follows.",
     rate.held);
   if (!r.has(rate.held)) return;
+  r("memory_known", "bool",
+    "As `energy.memory_known`, of the rest, too. If not, this is without the memory where it is not "
+    "known.",
+    rate.memory_not_stated.empty());
   visit_band(r, "energy_j", "J", rate.energy_j, "Energy of a frame and its rest");
   visit_band(r, "power_w", "W", rate.power_w(), "Power at this rate");
   r.object("rest", [&] {

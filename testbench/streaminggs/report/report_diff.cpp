@@ -184,9 +184,17 @@ ReportDiff diff_runs(const ReportedRun& a, const ReportedRun& b) {
   for (std::size_t q = 0; q < kQuantities; ++q) {
     diff.quantities.push_back(compare(diff, static_cast<Quantity>(q)));
   }
-  // Reports of earlier programs do not have it.
-  const auto not_told = [](const QuantityChange& q) {
-    return q.quantity == Quantity::kDieArea && (q.a == 0 || q.b == 0);
+  using Pair = std::pair<const ReportedView*, const ReportedView*>;
+  const auto all_known = [&](const ReportedView* Pair::*run) {
+    return std::all_of(diff.views.begin(), diff.views.end(),
+                       [&](const Pair& pair) { return (pair.*run)->memory_known; });
+  };
+  const bool known_of_a = all_known(&Pair::first), known_of_b = all_known(&Pair::second);
+  diff.without_memory = !known_of_a && !known_of_b;
+  // Reports of earlier programs do not have area by owner.
+  const auto not_told = [&](const QuantityChange& q) {
+    return (q.quantity == Quantity::kDieArea && (q.a == 0 || q.b == 0)) ||
+           (q.quantity == Quantity::kJoules && known_of_a != known_of_b);
   };
   diff.quantities.erase(std::remove_if(diff.quantities.begin(), diff.quantities.end(), not_told),
                         diff.quantities.end());

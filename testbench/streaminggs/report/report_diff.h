@@ -42,7 +42,9 @@ struct ReportDiff {
   std::vector<std::string> keys_of_a, keys_of_b;  // keys that only one has: of other machines
   std::size_t equal_keys = 0;
   bool clocks_differ = false;
-  std::vector<QuantityChange> quantities;  // time, then the largest change first
+  bool without_memory = false;  // joules of both: the memory's are known of neither
+  // Time, then the largest change first. No joules where the memory's are part of one run alone.
+  std::vector<QuantityChange> quantities;
 };
 
 // Both outlive it. Throws InputError where they have no view in common.

@@ -163,7 +163,12 @@ ReportedView read_view(const JsonPlace& report) {
   view.of(Quantity::kTime).whole = report.at("frame").at("time_s").number();
   view.of(Quantity::kBusy).whole = view.cycles;
   add_bytes(report.at("dram"), view.of(Quantity::kBytes));
-  add_costs(report.at("energy"), "_j", view.of(Quantity::kJoules));
+  const JsonPlace energy = report.at("energy");
+  add_costs(energy, "_j", view.of(Quantity::kJoules));
+  // Reports of earlier programs lack it.
+  view.memory_known = !energy.has("memory_known") || energy.at("memory_known").json() == true;
+  view.facts.emplace_back("energy", view.memory_known ? "with the memory's"
+                                                      : "without the memory's, which is not known");
   add_costs(report.at("area_mm2"), "", view.of(Quantity::kArea));
   add_owners(report.at("area_mm2"), view.of(Quantity::kDieArea));
   return view;

@@ -39,6 +39,7 @@ struct ReportedView {
   std::string psnr_db;     // "equal" where nothing differs from the reference picture
   bool equals = true;      // the frame is the streaming renderer's, to the byte
   std::string holds;       // binding.holds
+  bool memory_known = true;  // its energy is part of kJoules
   std::array<ReportedQuantity, kQuantities> quantities;
   const ReportedQuantity& of(Quantity q) const { return quantities[static_cast<std::size_t>(q)]; }
   ReportedQuantity& of(Quantity q) { return quantities[static_cast<std::size_t>(q)]; }

@@ -63,6 +63,7 @@ void visit_summary(ReportVisitor& r, const PathSummary& s) {
   r("p99_fps", "1/s", "Frame rate that 99 of 100 frames reach.", s.p99_fps);
   r("median_fps", "1/s", "Frame rate that half of the frames reach.", s.median_fps);
   r("energy_j", "J", "Energy of all frames.", s.energy_j);
+  r("memory_known", "bool", "As `fixed_rates[].memory_known`, of all frames.", s.memory_known);
   r("frame_rate", "1/s", "Frames that are begun in a second: `--frame-rate`.", s.rate);
   r("late_frames", "", "Frames after which the next one begins late.", s.late);
   r("empty_frames", "", "Frames to which no Gaussian contributes.", s.empty);

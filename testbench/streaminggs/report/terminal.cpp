@@ -24,6 +24,13 @@ std::string in_words(const CostResult& area) {
   return parts;
 }
 
+constexpr const char* kWithoutMemory = " without the memory";
+
+// "2.110", or ">2.110" of what the memory's is not part of.
+std::string at_least(const ViewResult& v, double value) {
+  return fmt::format("{}{:.3f}", v.run.memory.energy_not_stated.empty() ? "" : ">", value);
+}
+
 // Prints the parts of the squared error that the machine and the storage cause.
 void print_order_loss(const OrderLoss& loss, const GoldenFrame& golden) {
   fmt::print("  squared error: ");
@@ -47,15 +54,16 @@ void print_table_head(Detail detail) {
 }
 
 void print_table_line(const ViewResult& v, Detail detail) {
-  fmt::print("{:>4} {:>9} {:>8} {:>8.5f} {:>20} {:>13} {:>7} {:>8.2f} {:>8.2f} {:>8.3f}", v.view,
+  fmt::print("{:>4} {:>9} {:>8} {:>8.5f} {:>20} {:>13} {:>7} {:>8.2f} {:>8.2f} {:>8}", v.view,
              fmt::format("{}x{}", v.camera.width, v.camera.height),
              std::isinf(v.psnr_db) ? "equal" : fmt::format("{:.2f}", v.psnr_db), v.ssim,
              v.equals_golden ? "yes" : "NO", grouped(v.run.cycles),
              rate_in_words(1 / v.run.time_s()), static_cast<double>(v.run.memory.bytes) / 1e6,
-             static_cast<double>(v.run.memory.bus_bytes) / 1e6, v.energy_j.total.middle * 1e3);
+             static_cast<double>(v.run.memory.bus_bytes) / 1e6,
+             at_least(v, v.energy_j.total.middle * 1e3));
   if (detail == Detail::kAll) {
-    fmt::print(" {:>6.2f} {:>7.3f} {:>10} {:>4.0f}% {:>7.2f}", v.once_ratio(), v.mean_power_w(),
-               v.binding.unit, 100 * v.binding.utilisation, v.run.wall_s);
+    fmt::print(" {:>6.2f} {:>7} {:>10} {:>4.0f}% {:>7.2f}", v.once_ratio(),
+               at_least(v, v.mean_power_w()), v.binding.unit, 100 * v.binding.utilisation, v.run.wall_s);
   }
   fmt::print("\n");
 }
@@ -78,7 +86,18 @@ void print_energy(const ViewResult& v) {
     return fmt::format("{:.3f} ({:.3f} .. {:.3f}) mJ", 1e3 * joules.middle, 1e3 * joules.low,
                        1e3 * joules.high);
   };
-  fmt::print("view {}: energy {}, of it DRAM {}\n", v.view, in_mj(v.energy_j.total), in_mj(dram_j));
+  const bool known = dram.energy_not_stated.empty();
+  fmt::print("view {}: energy {}{}\n", v.view, in_mj(v.energy_j.total),
+             known ? ", of it DRAM " + in_mj(dram_j) : kWithoutMemory);
+}
+
+void print_unknown_energy(const ViewResult& v) {
+  std::string lacks = v.run.memory.energy_not_stated;
+  for (const FixedRate& rate : v.fixed_rates)
+    if (lacks.empty()) lacks = rate.memory_not_stated;
+  if (lacks.empty()) return;
+  fmt::print("the memory's energy is not known: {} does not state {}\n", v.memory_interface.memspec,
+             lacks);
 }
 
 std::string rounded(const Band& band) {
@@ -93,10 +112,11 @@ void print_fixed_rates(const ViewResult& v) {
       continue;
     }
     fmt::print(
-        "view {}: at {} frames a second {} W: {} mJ a frame, {} mJ in {} ms of rest\n"
+        "view {}: at {} frames a second {} W{}: {} mJ a frame, {} mJ in {} ms of rest\n"
         "  of the rest the memory is {} in self-refresh, {} in power-down; its PHY and controller "
         "take {} W{}\n",
         v.view, rounded(rate.per_s), rounded(rate.power_w()),
+        rate.memory_not_stated.empty() ? "" : kWithoutMemory,
         rounded(1e3 * v.energy_j.total.middle), rounded(1e3 * rate.rest_j.total.middle),
         rounded(1e3 * rate.rest_s), percent(rate.self_refresh_s / rate.rest_s),
         percent(rate.power_down_s / rate.rest_s), rounded(rate.memory_interface_w),

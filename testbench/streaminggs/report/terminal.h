@@ -19,12 +19,15 @@ void print_bottleneck(const ViewResult& view);
 // How many of these views or frames, as `what` calls them, no Gaussian contributes to; nothing
 // where one does to each.
 void print_empty(std::size_t empty, std::size_t all, const char* what);
-// Energy with its band.
+// Energy with its band, without the memory's where that is not known.
 void print_energy(const ViewResult& view);
 // "0.31 (0.2 .. 0.47)"
 std::string rounded(const Band& band);
 // Power at the rates that are asked for.
 void print_fixed_rates(const ViewResult& view);
+// What the memspec lacks for the memory's energy, in a frame or at a rate; nothing where it is
+// known. The same for all views.
+void print_unknown_energy(const ViewResult& view);
 // What ties of depth, order, arithmetic and encoding cost, where they cost anything.
 void print_losses(const ViewResult& view);
 // Bytes by region that are not 0.

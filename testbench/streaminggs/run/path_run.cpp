@@ -49,8 +49,10 @@ Json line_of(const Json& report) {
   Json line;
   line["frame"] = report["view"];
   for (const char* key : {"cycles", "time_s", "fps"}) line[key] = report["frame"][key];
-  line["energy_j"] = report["energy"]["total_j"];
-  line["mean_power_w"] = report["energy"]["mean_power_w"];
+  const Json& energy = report["energy"];
+  const bool memory_known = energy["memory_known"];
+  line["energy_j"] = memory_known ? energy["total_j"] : Json();
+  line["mean_power_w"] = memory_known ? energy["mean_power_w"] : Json();
   line["bytes"] = report["dram"]["bytes"];
   line["bus_bytes"] = report["dram"]["bus_bytes"];
   for (const char* key : {"psnr_db", "ssim", "equals_streaming_renderer"}) {
@@ -92,8 +94,9 @@ class DrawnFrames {
   // of_view: its report.
   void add(ViewResult view, const Json& of_view) {
     const std::size_t number = frames_.size();
-    frames_.push_back({view.run.time_s(), view.energy_j.total, view.fixed_rates.at(0).rest_j.total,
-                       is_empty(view)});
+    const FixedRate& rate = view.fixed_rates.at(0);
+    frames_.push_back({view.run.time_s(), view.energy_j.total, rate.rest_j.total, is_empty(view),
+                       view.run.memory.energy_not_stated.empty() && rate.memory_not_stated.empty()});
     lines_.push_back(line_of(of_view));
     all_equal_ = all_equal_ && view.equals_golden;
     if (view.psnr_db < worst_psnr_db_) worst_picture_ = number;
@@ -119,9 +122,10 @@ class DrawnFrames {
     // Late frames begin fewer a second than are asked for.
     const double frames = static_cast<double>(s.frames);
     const double begun = s.late > 0 ? frames * s.frames_w.middle / s.energy_j : s.rate;
-    fmt::print("{} mJ a frame; {} W at {} frames a second: {} for frames, {} between them\n",
+    fmt::print("{} mJ a frame; {} W at {} frames a second{}: {} for frames, {} between them\n",
                rounded(1e3 * s.energy_j / frames), rounded(s.frames_w + s.idle_w), rounded(begun),
-               rounded(s.frames_w.middle), rounded(s.idle_w.middle));
+               s.memory_known ? "" : " without the memory", rounded(s.frames_w.middle),
+               rounded(s.idle_w.middle));
     if (s.late > 0) {
       fmt::print("{} of {} frames take longer than 1/{} s: the next one begins late\n", s.late,
                  s.frames, rounded(s.rate));
@@ -203,6 +207,7 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out, b
   files.commit();
   drawn.print();
   print_scene(scene, config, dropping);
+  print_unknown_energy(drawn.slowest());
   print_area(drawn.slowest(), setting.technology.name, setting.detail);
   if (all) print_lanes(drawn.slowest());
   print_choices(config.chosen, setting.detail);

@@ -27,6 +27,7 @@ PathSummary summarise(const std::vector<PathFrame>& frames, double rate) {
     const double slot_s = std::max(frame.time_s, 1 / rate);
     out.late += frame.time_s > 1 / rate ? 1 : 0;
     out.empty += frame.empty ? 1 : 0;
+    out.memory_known = out.memory_known && frame.memory_known;
     frames_j = frames_j + frame.energy_j;
     idle_j = idle_j + frame.rest_j;
     all_s += slot_s;

@@ -12,15 +12,17 @@ namespace sgs {
 struct PathFrame {
   double time_s = 0;
   Band energy_j, rest_j;
-  bool empty = false;  // no Gaussian contributes
+  bool empty = false;        // no Gaussian contributes
+  bool memory_known = true;  // the memory's energy is; if not, these are without it
 };
 
 struct PathSummary {
   std::size_t frames = 0, empty = 0;
   double worst_fps = 0, p99_fps = 0, median_fps = 0;
   std::size_t worst_frame = 0;
-  double energy_j = 0;  // of all frames
-  double rate = 0;      // as given
+  double energy_j = 0;       // of all frames
+  bool memory_known = true;  // as PathFrame has it, of all
+  double rate = 0;           // as given
   // With a frame begun every 1 / rate, or when the one before it is done: those done later, and the
   // joules a second for frames and between them.
   std::size_t late = 0;

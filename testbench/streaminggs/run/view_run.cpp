@@ -125,6 +125,7 @@ int run_views(const NumberedCameras& views, RunSetting& setting, const ResultFol
   const auto empty = std::count_if(results.begin(), results.end(), is_empty);
   if (results.size() > 1) print_empty(static_cast<std::size_t>(empty), results.size(), "views");
   print_scene(setting.scene, setting.config, dropping);
+  print_unknown_energy(results.front());
   print_area(results.front(), setting.technology.name, setting.detail);
   if (setting.detail == Detail::kAll) print_lanes(results.front());
   print_choices(setting.config.chosen, setting.detail);

@@ -33,6 +33,7 @@ constexpr Column kOfReport[] = {
     {"limit.ratio", "limit.ratio"},
     {"energy.total_j", "energy.total_j"},
     {"energy.mean_power_w", "energy.mean_power_w"},
+    {"energy.memory_known", "energy.memory_known"},
     {"area_mm2.total", "area_mm2.total"},
     {"area_mm2.with_memory_interface.middle", "area_mm2.with_memory_interface.middle"},
     {"sram.input_needed_bytes", "sram.input_bytes"},

@@ -100,6 +100,7 @@ void print_wholes(const ReportDiff& diff) {
                in_words(q.a, q.quantity), in_words(q.b, q.quantity), change(q.a, q.b),
                has_noise(q.quantity, diff) ? noise_of(q.a, q.b) : "");
   }
+  if (diff.without_memory) fmt::print("energy is without the memory's, which is not known\n");
   if (diff.clocks_differ) fmt::print("clocks differ: time compares the runs, cycles do not\n");
 }
 

@@ -17,6 +17,7 @@ struct Outcome {
   std::uint64_t cycles = 0, bus_bytes = 0;
   double joules = 0, mm2 = 0;
   double mm2_with_memory_interface = 0;  // with PHY and controller of the memory's channels
+  std::string memory_not_stated;         // as MemoryResult has it
   Binding binding;
 };
 

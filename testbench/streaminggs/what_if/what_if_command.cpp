@@ -87,6 +87,7 @@ Outcome outcome_of(const FrameResult& frame, const Technology& technology) {
           energy_of(frame, technology).total.middle,
           area_of(frame, technology).total.middle,
           area.with_memory_interface.middle,
+          frame.memory.energy_not_stated,
           find_binding(frame, area)};
 }
 
@@ -118,6 +119,9 @@ void print(const Outcome& base, const std::vector<Doubling>& doublings) {
       "with PHY: mm2 with PHY and controller of the memory's channels; -: less than {:g} % of that "
       "is added, or it is {}\n",
       100 * kLeastAddedArea, kBelowNoise);
+  if (!base.memory_not_stated.empty())
+    fmt::print("energy is without the memory's: its memspec does not state {}\n",
+               base.memory_not_stated);
   for (const Doubling& d : doublings) {
     if (!d.refused.empty()) fmt::print("{}={}: cannot be: {}\n", d.key, d.to, d.refused);
   }
@@ -127,6 +131,7 @@ Json to_json(const Outcome& outcome) {
   return {{"cycles", outcome.cycles},
           {"bus_bytes", outcome.bus_bytes},
           {"energy_j", outcome.joules},
+          {"memory_known", outcome.memory_not_stated.empty()},
           {"area_mm2", outcome.mm2},
           {"area_with_memory_interface_mm2", outcome.mm2_with_memory_interface},
           {"holds", outcome.binding.holds},

@@ -1,8 +1,11 @@
 // Energy: state residencies and joules against hand calculation from the currents.
 #include <catch2/catch.hpp>
+#include <functional>
+#include <initializer_list>
 #include <map>
 #include <numeric>
 #include <string>
+#include <vector>
 
 #include "modules/dram/dram_energy.h"
 #include "modules/dram/queued_channel.h"
@@ -145,6 +148,38 @@ TEST_CASE("energy: one set of currents has a spread, and I/O without a band LPDD
   m.io_pj_per_bit_low = m.io_pj_per_bit_high = m.io_pj_per_bit;
   CHECK(band_of(m, config).least_pj == Approx(band.total_pj()));
   CHECK(band_of(m, config).most_pj == Approx(band.total_pj()));
+}
+
+TEST_CASE("energy: it is not known without a number for what took place, by table") {
+  struct Row {
+    const char* not_stated;
+    std::function<void(Memspec&, DramConfig&)> change;
+  };
+  const auto without = [](Memspec& m, std::initializer_list<double Memspec::Rail::*> currents) {
+    for (auto& [name, set] : m.currents)
+      for (double Memspec::Rail::*ma : currents) set.vdd1_ma.*ma = set.vdd2_ma.*ma = 0;
+  };
+  const auto without_any = [](Memspec& m) {
+    for (auto& [name, set] : m.currents) set.vdd1_ma = set.vdd2_ma = {};
+  };
+  constexpr const char* kIo = "I/O energy (dram.io_pj_per_bit)";
+  for (const Row& row : std::vector<Row>{
+           {"", [](Memspec&, DramConfig&) {}},
+           {"idd4r", [&](Memspec& m, DramConfig&) { without(m, {&Memspec::Rail::idd4r}); }},
+           {"", [&](Memspec& m, DramConfig&) { without(m, {&Memspec::Rail::idd4w}); }},  // no write
+           {"currents", [&](Memspec& m, DramConfig&) { without_any(m); }},
+           {kIo, [](Memspec& m, DramConfig&) { m.io_pj_per_bit = 0; }},
+           {"", [](Memspec&, DramConfig& c) { c.io_pj_per_bit = 0; }}}) {
+    DramConfig config;
+    Memspec m = load_memspec(config.memspec);
+    row.change(m, config);
+    CHECK(band_of(m, config).not_stated == row.not_stated);
+  }
+  DramConfig config;
+  Memspec neither = load_memspec(config.memspec);
+  without_any(neither);
+  neither.io_pj_per_bit = 0;
+  CHECK(band_of(neither, config).not_stated == std::string("currents and ") + kIo);
 }
 
 Rest one_channel_rest(BetweenFrames state, std::uint64_t cycles) {

@@ -162,6 +162,20 @@ TEST_CASE("cost: at a fixed rate a frame and its rest, or that the rate is not h
   CHECK(late.rest_j.by_component.empty());
 }
 
+TEST_CASE("cost: what of the memory is not known is no part of a frame's joules, or of a rest's") {
+  const Technology technology = priced();
+  FrameResult unknown = frame();
+  unknown.memory.energy_not_stated = "currents";
+  const CostResult with = energy_of(frame(), technology), without = energy_of(unknown, technology);
+  CHECK(without.by_component.size() == with.by_component.size() - 1);
+  CHECK(without.total.middle == Approx(with.total.middle - 1e-6));
+  Rest resting = rest();
+  resting.energy.not_stated = "idd6";
+  CHECK(rest_energy_of(frame(), resting, 4e-6, technology).by_component.size() == 2);
+  CHECK(at_rate(100, frame(), {}, DramConfig(), technology).memory_not_stated.empty());
+  CHECK(at_rate(100, unknown, {}, DramConfig(), technology).memory_not_stated == "currents");
+}
+
 TEST_CASE("cost: leakage lasts as long as the frame") {
   FrameResult once = frame();
   FrameResult longer = frame();

@@ -67,6 +67,9 @@ TEST_CASE("table of counts: energies are of both rails, each bus has its share o
     INFO(name);
     CHECK(line(table, name) == value);
   }
+  stats.energy.not_stated = "idd6";
+  CHECK(line(stats_table(stats), "energy") == "not known: the memspec does not state idd6");
+  CHECK(line(stats_table(stats), "  read") == "no such line");
 }
 
 }  // namespace

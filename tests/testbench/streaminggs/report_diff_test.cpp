@@ -152,6 +152,26 @@ TEST_CASE("diff: area by owner, the memory's interface included, where both repo
   }
 }
 
+TEST_CASE("diff: joules without the memory's are compared with their like alone") {
+  const ScratchFolder scratch;
+  json without = view_of(0);
+  without["energy"] = {{"fine_j", 3.0},
+                       {"total_j", 3.0},
+                       {"mean_power_w", 7.0},
+                       {"memory_known", false},
+                       {"bands", {{"fine_j", {}}, {"total_j", {}}}}};
+  const ReportedRun a = read(scratch, "a.json", view_of(0));
+  const ReportedRun b = read(scratch, "b.json", without);
+  const ReportDiff unlike = diff_runs(a, b), alike = diff_runs(b, b);
+  CHECK(unlike.unlike == std::vector<std::string>{
+                             "energy: with the memory's | without the memory's, which is not known"});
+  CHECK_FALSE(unlike.without_memory);
+  for (const QuantityChange& q : unlike.quantities) CHECK(q.quantity != Quantity::kJoules);
+  CHECK(alike.unlike.empty());
+  CHECK(alike.without_memory);
+  CHECK(of(alike, Quantity::kJoules).a == 3);
+}
+
 TEST_CASE("diff: a memory that is not used whole says what of it is") {
   const ScratchFolder scratch;
   const auto with_memory = [](int bytes) {
