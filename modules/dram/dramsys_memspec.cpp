@@ -78,6 +78,52 @@ const std::vector<CurrentName> kCurrents = {
     {"idd6", {"idd61", "ipp6n"}, {"idd62", "idd62h", "idd6n", "idd6"}},
 };
 
+// Other keys of ours, and the section and names that they are from.
+struct OtherName {
+  const char *ours, *section;
+  Names theirs;
+};
+constexpr const char* kArchitecture = "memarchitecturespec";
+const std::vector<OtherName> kOthers = {
+    {"organisation.width_bits", kArchitecture, {"width"}},
+    {"organisation.burst_length", kArchitecture, {"burstLength"}},
+    {"organisation.beats_per_clock", kArchitecture, {"dataRate"}},
+    {"organisation.pseudo_channels", kArchitecture, {"nbrOfPseudoChannels"}},
+    {"organisation.banks", kArchitecture, {"nbrOfBanks"}},
+    {"organisation.bank_groups", kArchitecture, {"nbrOfBankGroups"}},
+    {"organisation.rows", kArchitecture, {"nbrOfRows"}},
+    {"organisation.columns", kArchitecture, {"nbrOfColumns"}},
+    {"clock_period_ns", "memtimingspec", {"tCK"}},
+    {"command_bus.activate", "memtimingspec", {"cmdMode"}},
+    {"command_bus.column", "memtimingspec", {"cmdMode"}},
+    {"currents.dramsys.vdd1_v", "mempowerspec", {"vdd1", "vpp"}},
+    {"currents.dramsys.vdd2_v", "mempowerspec", {"vdd2", "vdd2h", "vdd"}},
+    {"io_pj_per_bit", "mempowerspec", {"idd4rq"}},
+};
+
+// The file's key that a key of ours is from; empty where it is from none alone.
+std::string dramsys_key(const std::string& ours, const Json& spec) {
+  // The name that is stated, or the first.
+  const auto named = [&](const char* section, const Names& theirs) {
+    const Json in = spec.value(section, Json::object());
+    const auto stated = std::find_if(theirs.begin(), theirs.end(),
+                                     [&](const char* name) { return in.value(name, 0.0) > 0; });
+    return fmt::format("memspec.{}.{}", section, stated == theirs.end() ? theirs[0] : *stated);
+  };
+  for (const auto& timings : {kStated, kStatedOfGroups})
+    for (const TimingName& name : timings)
+      if (ours == std::string("timing_cycles.") + name.ours)
+        return named("memtimingspec", name.theirs);
+  for (const CurrentName& name : kCurrents) {
+    const std::string rails = "currents.dramsys.vdd";
+    if (ours == rails + "1_ma." + name.ours) return named("mempowerspec", name.first);
+    if (ours == rails + "2_ma." + name.ours) return named("mempowerspec", name.second);
+  }
+  for (const OtherName& name : kOthers)
+    if (ours == name.ours) return named(name.section, name.theirs);
+  return "";
+}
+
 class Conversion {
  public:
   Conversion(const Json& spec, const std::string& origin) : spec_(spec), origin_(origin) {}
@@ -260,8 +306,7 @@ class Conversion {
     take_rail("vdd1_v", {"vdd1", "vpp"}, "vdd1_ma", &CurrentName::first);
     take_rail("vdd2_v", {"vdd2", "vdd2h", "vdd"}, "vdd2_ma", &CurrentName::second);
     if (!any)
-      notes.push_back(
-          fmt::format("{}: no currents: the memory's energy is not known", origin_));
+      notes.push_back(fmt::format("{}: no currents: the memory's energy is not known", origin_));
     if (first_of("mempowerspec", {"idd02l", "idd4r2l", "idd3n2l"}) > 0)
       notes.push_back(fmt::format("{}: currents of VDD2L are not counted", origin_));
     ours_["currents"]["dramsys"] = set;
@@ -297,6 +342,14 @@ bool is_dramsys_memspec(const Json& json) {
 Json converted_from_dramsys(const Json& json, const std::string& origin,
                             std::vector<std::string>& notes) {
   return Conversion(json["memspec"], origin).run(notes);
+}
+
+std::string in_dramsys_keys(const std::string& refusal, const std::string& origin,
+                            const Json& json) {
+  const std::size_t key = origin.size() + 2, end = refusal.find(": ", key);
+  if (refusal.rfind(origin + ": ", 0) != 0 || end == std::string::npos) return refusal;
+  const std::string theirs = dramsys_key(refusal.substr(key, end - key), json["memspec"]);
+  return theirs.empty() ? refusal : origin + ": " + theirs + refusal.substr(end);
 }
 
 }  // namespace sgs

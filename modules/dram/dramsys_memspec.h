@@ -16,4 +16,9 @@ nlohmann::ordered_json converted_from_dramsys(const nlohmann::ordered_json& json
                                               const std::string& origin,
                                               std::vector<std::string>& notes);
 
+// A refusal of a key of the converted memspec, "ORIGIN: KEY: ...", by the key of `json` that its
+// value is from. Of other keys as it is.
+std::string in_dramsys_keys(const std::string& refusal, const std::string& origin,
+                            const nlohmann::ordered_json& json);
+
 }  // namespace sgs

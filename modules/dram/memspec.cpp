@@ -198,26 +198,48 @@ std::string memspec_path(const std::string& name_or_path) {
   return fs::exists(shipped, missing) ? shipped : name;
 }
 
+namespace {
+
+Memspec read_checked(const ConfigDocument& document, const std::string& path, bool hot) {
+  Memspec memspec;
+  document.read_into(memspec);
+  check_memspec(memspec, path);
+  if (!hot) return memspec;
+  heat(memspec);
+  check_memspec(memspec, path + kHotSuffix);
+  return memspec;
+}
+
+Memspec read_dramsys(const Json& json, const std::string& path, bool hot) {
+  std::vector<std::string> notes;
+  ConfigDocument document;
+  document.add_text(converted_from_dramsys(json, path, notes)
+                        .dump(-1, ' ', false, Json::error_handler_t::replace),
+                    path);
+  try {
+    Memspec memspec = read_checked(document, path, hot);
+    memspec.notes = std::move(notes);
+    return memspec;
+  } catch (const InputError& error) {
+    const std::string said = in_dramsys_keys(error.what(), path, json);
+    throw InputError(in_dramsys_keys(said, path + kHotSuffix, json));
+  }
+}
+
+}  // namespace
+
 Memspec load_memspec(const std::string& name_or_path) {
   const std::string path = memspec_path(name_or_path);
   std::error_code missing;
   if (!fs::exists(path, missing))
     throw InputError(fmt::format("dram.memspec: got '{}', expected a JSON file or one of {}",
                                  name_or_path, join(shipped_memspecs())));
-  Memspec memspec;
-  ConfigDocument document;
+  const bool hot = is_hot(name_or_path);
   if (const Json json = read_json(path); is_dramsys_memspec(json))
-    document.add_text(converted_from_dramsys(json, path, memspec.notes)
-                          .dump(-1, ' ', false, Json::error_handler_t::replace),
-                      path);
-  else
-    document.add_file(path);
-  document.read_into(memspec);
-  check_memspec(memspec, path);
-  if (!is_hot(name_or_path)) return memspec;
-  heat(memspec);
-  check_memspec(memspec, path + kHotSuffix);
-  return memspec;
+    return read_dramsys(json, path, hot);
+  ConfigDocument document;
+  document.add_file(path);
+  return read_checked(document, path, hot);
 }
 
 namespace {

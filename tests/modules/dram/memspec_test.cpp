@@ -2,6 +2,7 @@
 #include "modules/dram/memspec.h"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <functional>
 #include <map>
@@ -379,7 +380,16 @@ TEST_CASE("memspecs: DRAMSys's other forms, and what has none") {
         std::string::npos);
   CHECK(refusal([&] {
           load_memspec(with({{"\"RAS\": 68, ", ""}}));
-        }).find("a.json: timing_cycles.ras: got 0 or nothing") != std::string::npos);
+        }).find("a.json: memspec.memtimingspec.RAS: got 0 or nothing") != std::string::npos);
+  for (const auto& [from, to, says] : std::vector<std::array<const char*, 3>>{
+           {"\"nbrOfRows\": 65536", "\"nbrOfRows\": 49152",
+            "memarchitecturespec.nbrOfRows: got 49152, expected a power of two"},
+           {"\"RPpb\": 29", "\"RP\": 290", "memtimingspec.RPab: got 34, expected at least rp_bank"},
+           {"\"idd02\": 45.0e-3", "\"idd02\": 45", "mempowerspec.idd02: got 45000"}}) {
+    INFO(says);
+    const std::string said = refusal([&] { load_memspec(with({{from, to}})); });
+    CHECK(said.find(std::string("a.json: memspec.") + says) != std::string::npos);
+  }
 }
 
 TEST_CASE("dram config: combinations that cannot be are refused with the key's name") {
