@@ -354,6 +354,8 @@ TEST_CASE("bad input: messages are short, clean and begin with the program") {
            {"$SG simulate $B --config gscore --set hfu.cfus=2",
             "; it is a key of machine exact and paper, not of gscore"},
            {"$SG simulate $B --set lists.lines=2", "; it is a key of machine gscore, not of exact"},
+           {"$SG simulate $B --config gscore_boxes --set storage.sequence=file",
+            "; not with culling.by=chunk_boxes, but with culling.by=gaussians"},
            {"$SG simulate $B --set dram.io_pj_per_bit=-0.5", "got -0.5, expected a number in [0"},
            {"$SG describe --memspec lpddr3_1600_4gb --set hfus=8", "excludes --"},
            {"$SG describe --config paper --memspec lpddr3_1600_4gb", "excludes --"},

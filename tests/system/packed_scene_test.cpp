@@ -286,6 +286,13 @@ TEST_CASE("pack: what a packed scene cannot be used for is refused") {
   const Arguments out = {"--out", scenes.path("out")};
   check_packed_refused(joined(joined(simulate, out), {"--config", "paper"}),
                        {file, "stored by chunks", "machine paper reads", "--config exact"});
+  const std::string by_file = scenes.path("by_file.sgs");
+  REQUIRE(run_streaminggs({"pack", scenes.ply(), "--config", "gscore", "--out", by_file}).status ==
+          0);
+  check_packed_refused(
+      joined(joined({"simulate"}, scenes.view(by_file)), joined(out, {"--config", "gscore_boxes"})),
+      {by_file, "stored by file", "gscore with culling.by=chunk_boxes reads",
+       ": take --set culling.by=gaussians, or pack"});
   check_packed_refused({"render", file, "--cameras", scenes.cameras(), "--ordering", "paper",
                         "--out", scenes.path("out.png")},
                        {file, "stored by chunks", "machine paper reads"});

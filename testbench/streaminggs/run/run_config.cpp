@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_json.h"
@@ -130,26 +131,65 @@ void resolve_machine(RunConfig& config) {
   });
 }
 
-// Of one kind of machine, as paths.
-std::vector<std::string> keys_of(const MachineKind& kind, const std::vector<MachineKind>& kinds) {
+RunConfig defaults_of(const MachineKind& kind, const std::vector<MachineKind>& kinds,
+                      const std::string& setting = "") {
   ConfigDocument document;
   document.add_override(fmt::format("machine={}", kind.name));
-  RunConfig config = read_run_config(document, kinds);
-  document.add_text(to_json(config), "the defaults");
+  if (!setting.empty()) document.add_override(setting);
+  return read_run_config(document, kinds);
+}
+
+// As paths.
+std::vector<std::string> keys_of(RunConfig& config) {
+  ConfigDocument document;
+  document.add_text(to_json(config), "the configuration");
   std::vector<std::string> keys;
   for (const ConfigOrigin& value : document.origins()) keys.push_back(value.path);
   return keys;
 }
 
-// The kinds of machine that have such a key, or a section of that name.
+// A setting by which a machine is not as by its defaults, and the default, as "key=value" each.
+struct Deciding {
+  std::string set, by_default;
+};
+
+// The one of `origins` without which `holds` of the defaults, and with which alone it does not;
+// none where it takes several. config: of these settings, as far as it could be read.
+std::optional<Deciding> deciding_setting(RunConfig& config,
+                                         const std::vector<ConfigOrigin>& origins,
+                                         const std::function<bool(RunConfig&)>& holds) {
+  const MachineKind& kind = (*config.kinds)[config.kind];
+  RunConfig defaults = defaults_of(kind, *config.kinds);
+  if (!holds(defaults)) return {};
+  const Json set = parse_json(to_json(config), "the configuration");
+  const Json unset = parse_json(to_json(defaults), "the defaults");
+  const auto in_words = [](const std::string& key, const Json& value) {
+    return key + "=" + (value.is_string() ? value.get<std::string>() : value.dump());
+  };
+  for (const ConfigOrigin& value : origins) {
+    const Json::json_pointer place = pointer_to(value.path);
+    if (!set.contains(place) || !unset.contains(place) || set[place] == unset[place]) continue;
+    const std::string setting = in_words(value.path, set[place]);
+    RunConfig with = defaults_of(kind, *config.kinds, setting);
+    if (!holds(with)) return Deciding{setting, in_words(value.path, unset[place])};
+  }
+  return {};
+}
+
+// Whether it has such a key, or a section of that name.
+bool has_key(RunConfig& config, const std::string& key) {
+  const std::vector<std::string> keys = keys_of(config);
+  return std::any_of(keys.begin(), keys.end(), [&](const std::string& other) {
+    return other == key || other.rfind(key + ".", 0) == 0;
+  });
+}
+
+// The kinds of machine that have it by their defaults.
 std::vector<std::string> kinds_with(const std::string& key, const std::vector<MachineKind>& kinds) {
   std::vector<std::string> names;
   for (const MachineKind& kind : kinds) {
-    const std::vector<std::string> keys = keys_of(kind, kinds);
-    const auto is_it = [&](const std::string& other) {
-      return other == key || other.rfind(key + ".", 0) == 0;
-    };
-    if (std::any_of(keys.begin(), keys.end(), is_it)) names.emplace_back(kind.name);
+    RunConfig config = defaults_of(kind, kinds);
+    if (has_key(config, key)) names.emplace_back(kind.name);
   }
   return names;
 }
@@ -213,7 +253,8 @@ void visit(ConfigVisitor& v, RunConfig& c) {
 std::vector<std::string> keys_of(const std::vector<MachineKind>& kinds) {
   std::vector<std::string> keys;
   for (const MachineKind& kind : kinds) {
-    for (const std::string& key : keys_of(kind, kinds)) {
+    RunConfig config = defaults_of(kind, kinds);
+    for (const std::string& key : keys_of(config)) {
       if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
     }
   }
@@ -226,8 +267,13 @@ RunConfig read_run_config(const ConfigDocument& document, const std::vector<Mach
   try {
     document.read_into(config);
   } catch (const UnknownKey& error) {
+    const auto has_it = [&](RunConfig& other) { return has_key(other, error.path); };
+    if (const auto by = deciding_setting(config, document.origins(), has_it)) {
+      throw InputError(
+          fmt::format("{}; not with {}, but with {}", error.what(), by->set, by->by_default));
+    }
     std::vector<std::string> others = kinds_with(error.path, kinds);
-    // A key that its own machine would have by other keys is just unknown.
+    // A key that its own machine would have by several other keys is just unknown.
     others.erase(std::remove(others.begin(), others.end(), config.machine()), others.end());
     if (others.empty()) throw;
     throw InputError(fmt::format("{}; it is a key of machine {}, not of {}", error.what(),
@@ -286,13 +332,18 @@ void resolve(RunConfig& config, const PackedScene& packed, const std::string& pa
              const std::string& preset) {
   const StorageOrder order = packed.storage.order;
   if (order != config.design->storage_order()) {
+    const auto reads_it = [&](RunConfig& other) { return other.design->storage_order() == order; };
+    const auto by = deciding_setting(config, config.origins, reads_it);
     const std::string readers = readers_of(*config.kinds, order);
-    throw InputError(fmt::format(
-        "{}: stored by {}; machine {} reads scenes stored by {}: {}pack the scene again with this "
-        "configuration",
-        path, scheme_of(order).name(), config.machine(),
-        scheme_of(config.design->storage_order()).name(),
-        readers.empty() ? "" : fmt::format("take --config {}, or ", readers)));
+    const std::string take = by                ? "--set " + by->by_default
+                             : readers.empty() ? ""
+                                               : "--config " + readers;
+    throw InputError(
+        fmt::format("{}: stored by {}; machine {}{} reads scenes stored by {}: {}pack the scene "
+                    "again with this configuration",
+                    path, scheme_of(order).name(), config.machine(), by ? " with " + by->set : "",
+                    scheme_of(config.design->storage_order()).name(),
+                    take.empty() ? "" : fmt::format("take {}, or ", take)));
   }
   config.storage_source = compared(config, packed, path, preset);
   config.storage = packed.storage;
