@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "algorithm/files/data_files.h"
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/input_json.h"
 #include "modules/config/strict_json.h"
@@ -53,6 +54,49 @@ void check_stated(const Json& table, const std::string& at, const std::set<std::
       throw InputError(fmt::format("{}: {}: got nothing, expected it", path, place));
     }
   }
+}
+
+// Throws InputError unless every object that has room for a source tells one. at: path of the keys.
+void check_sources(const Json& table, const std::string& at, const std::string& path) {
+  for (const auto& [key, value] : table.items()) {
+    const std::string place = at.empty() ? key : at + "." + key;
+    if (value.is_object()) check_sources(value, place, path);
+    if (key == "source" && value == "")
+      throw InputError(
+          fmt::format("{}: {}: got nothing, expected where these numbers come from", path, place));
+  }
+}
+
+std::vector<std::string> names_of(const Json& rows) {
+  std::vector<std::string> names;
+  for (const auto& row : rows.items()) names.push_back(row.key());
+  return names;
+}
+
+// The kinds of part are the rows of the shipped table. Throws InputError for another row, which no
+// part would take, and without one of them.
+void check_rows(const Technology& technology, const Json& shipped) {
+  const std::vector<std::string> kinds = names_of(shipped.at("parts"));
+  for (const auto& [kind, cost] : technology.parts) {
+    if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) continue;
+    throw InputError(fmt::format("{}: parts.{}: no kind of part{}one of {}", technology.path, kind,
+                                 then_expected(did_you_mean(kind, kinds)), join(kinds)));
+  }
+  for (const std::string& kind : kinds) technology.part(kind);
+}
+
+// A line about published constants and points that are not the shipped table's; empty: none.
+std::string note_on_published(const Json& given, const Json& shipped, const std::string& path) {
+  std::vector<std::string> changed;
+  for (const std::string section : {"published", "sram.points"}) {
+    std::string pointer = "/" + section;
+    std::replace(pointer.begin(), pointer.end(), '.', '/');
+    const Json rows = given.value(Json::json_pointer(pointer), Json::object());
+    const Json ours = shipped.value(Json::json_pointer(pointer), Json::object());
+    for (const auto& [name, row] : rows.items())
+      if (!ours.contains(name) || ours.at(name) != row) changed.push_back(section + "." + name);
+  }
+  return changed.empty() ? "" : fmt::format("{}: {}: no cost is made of it", path, join(changed));
 }
 
 // at: path of the keys.
@@ -191,7 +235,11 @@ Technology load_technology(const std::string& path) {
   for (const ConfigOrigin& value : document.origins()) stated.insert(value.path);
   const Json table = parse_json(config_to_json(technology), path);
   check_stated(table, "", stated, path);
+  check_sources(table, "", path);
   check_bands(table, "", path);
+  const Json shipped = read_json(data_file("technology_32nm.json"));
+  check_rows(technology, shipped);
+  technology.note = note_on_published(read_json(path), shipped, path);
   return technology;
 }
 

@@ -115,6 +115,7 @@ struct MemoryInterfaceCost {
 
 struct Technology {
   std::string path;                       // the table's file, for messages
+  std::string note;                       // what it says that has no effect; empty: nothing
   std::string name;                       // the node's name
   double clock_mhz = 0;                   // that its rows and depths of pipelines stand for; 0: any
   std::map<std::string, PartCost> parts;  // by kind
@@ -133,8 +134,8 @@ void visit(ConfigVisitor& v, DieCost& cost);
 void visit(ConfigVisitor& v, MemoryInterfaceCost& cost);
 void visit(ConfigVisitor& v, Technology& technology);
 
-// Throws InputError, also for a table without a name or one of its numbers, and for a band that is
-// not low <= middle <= high.
+// Throws InputError, also for a table without a name, a source, or one of its numbers, for a band
+// that is not low <= middle <= high, and for parts of other kinds than the shipped table's.
 Technology load_technology(const std::string& path);
 
 }  // namespace sgs

@@ -230,6 +230,8 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
     setting.scene = prepare(std::move(scene), config, weighing, CodebookCache(arguments.cache));
   }
   print_what_runs(setting);
+  if (!setting.technology.note.empty())
+    fmt::print(stderr, "streaminggs: note: {}\n", setting.technology.note);
   const std::string doubt = doubt_about_clock(config, setting.technology);
   if (!doubt.empty()) fmt::print(stderr, "streaminggs: note: {}\n", doubt);
   const int status = path ? run_path(*path, setting, out, arguments.drop_invalid)

@@ -46,6 +46,17 @@ TEST_CASE("bad input: cameras that cannot be drawn are named with their file, be
   }
 }
 
+TEST_CASE("bad input: a technology with a misspelt row is refused before any heading") {
+  const ScratchFolder scratch;
+  const ShellOutcome outcome =
+      shell(scratch, "sed 's/\"adder\":/\"addder\":/' " SGS_TECHNOLOGY
+                     " >t.json; $SG simulate $B --out o --technology t.json");
+  CHECK(outcome.status == 2);
+  CHECK(outcome.err.find("t.json: parts.addder: no kind of part; did you mean adder?") !=
+        std::string::npos);
+  CHECK(outcome.out.empty());
+}
+
 TEST_CASE("bad input: what would never end is refused at once") {
   for (const ErrorLine& row : std::vector<ErrorLine>{
            {"$SG simulate $B --out o --config pipe", 2, {"pipe", "regular"}, "mkfifo pipe"},

@@ -76,6 +76,7 @@ int run(const SweepArguments& arguments, const Kinds& kinds) {
   }
   Technology technology = load_technology(arguments.technology);
   arguments.check_places();
+  if (!technology.note.empty()) fmt::print(stderr, "streaminggs: note: {}\n", technology.note);
   const RunFacts facts{technology.name,
                        arguments.technology,
                        defaults.technology_hash,

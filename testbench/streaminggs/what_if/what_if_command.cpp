@@ -236,6 +236,8 @@ int run(const WhatIfArguments& arguments, const Kinds& kinds) {
         arguments.weighing_cameras(scene.cameras, config.storage.encoding);
     base.scene = prepare(std::move(scene), config, weighing, CodebookCache(arguments.cache));
   }
+  if (!base.technology.note.empty())
+    fmt::print(stderr, "streaminggs: note: {}\n", base.technology.note);
   const std::string doubt = doubt_about_clock(config, base.technology);
   if (!doubt.empty()) fmt::print(stderr, "streaminggs: note: {}\n", doubt);
   base.resolved = to_json(config);

@@ -268,6 +268,7 @@ TEST_CASE("cost: tables that say less than they must, or bands out of order, are
     json value;
     const char* expected;
   };
+  const json part = json::parse(bytes_of(SGS_TECHNOLOGY))["parts"]["adder"];
   for (const Row& row : std::vector<Row>{
            {"/name", "", ": name: got none, expected that of the node"},
            {"/parts/fp32_chaining_lane/pj/low", 99,
@@ -276,7 +277,14 @@ TEST_CASE("cost: tables that say less than they must, or bands out of order, are
            {"/sram/macro/high", {}, ": sram.macro.high: got nothing"},
            {"/die", {}, ": die.clock_pj_mm2_cycle.low: got nothing"},
            {"/memory_interface/gb_s", {}, ": memory_interface.gb_s: got nothing"},
-           {"/memory_interface/counted", {}, ": memory_interface.counted: got nothing"}}) {
+           {"/memory_interface/counted", {}, ": memory_interface.counted: got nothing"},
+           {"/parts/fp32_lane/source", {}, ": parts.fp32_lane.source: got nothing"},
+           {"/die/source", "", ": die.source: got nothing"},
+           {"/published/comparator/source", {}, ": published.comparator.source: got nothing"},
+           {"/parts/adder", {}, ": parts: got no row \"adder\""},
+           {"/parts/addder", part, ": parts.addder: no kind of part; did you mean adder?"},
+           {"/parts/divider", part,
+            ": parts.divider: no kind of part, expected one of fp32_lane"}}) {
     changed(row.place, row.value);
     const std::string said = input_error_of([&] { load_technology(path); });
     INFO(said);
@@ -290,8 +298,10 @@ TEST_CASE("cost: tables that say less than they must, or bands out of order, are
   CHECK(load_technology(path).sram.points.empty());
   changed("/published", {});
   CHECK(load_technology(path).published.empty());
-  changed("/parts/fp32_lane/source", {});
-  CHECK(load_technology(path).part("fp32_lane").source.empty());
+  // What is changed of it has no effect, and that is said.
+  CHECK(load_technology(SGS_TECHNOLOGY).note.empty());
+  changed("/published/comparator/mm2/middle", 0.00012);
+  CHECK(load_technology(path).note == path + ": published.comparator: no cost is made of it");
   Technology without_parts = load_technology(path);
   without_parts.parts.clear();
   CHECK(input_error_of([&] { area_of(frame(), without_parts); }).find(path) == 0);
