@@ -17,6 +17,12 @@ std::string source_of(const char* key, const Memspec& device) {
 
 }  // namespace
 
+std::string MemoryInterface::whose() const {
+  if (area_known) return area_of;
+  return fmt::format("{}, estimated from {}", memspec,
+                     area_of.empty() ? "those of the technology table" : area_of);
+}
+
 std::string MemoryInterface::in_words() const {
   const std::string whose = area_of.empty() ? "those of the technology table" : area_of + "'s";
   return fmt::format("{}: PHY and controller {}; I/O {:g} ({:g} .. {:g}) pJ/bit: {}", memspec,

@@ -18,6 +18,8 @@ struct MemoryInterface {
   double io_pj_per_bit = 0, io_pj_per_bit_low = 0, io_pj_per_bit_high = 0;
   std::string io_source;
 
+  // Whose PHY and controller, and by which estimate where it is another's.
+  std::string whose() const;
   // One line: whose PHY and controller are counted, and what I/O energy by which source.
   std::string in_words() const;
 };

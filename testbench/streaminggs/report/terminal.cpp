@@ -63,7 +63,8 @@ void print_table_line(const ViewResult& v, Detail detail) {
              at_least(v, v.energy_j.total.middle * 1e3));
   if (detail == Detail::kAll) {
     fmt::print(" {:>6.2f} {:>7} {:>10} {:>4.0f}% {:>7.2f}", v.once_ratio(),
-               at_least(v, v.mean_power_w()), v.binding.unit, 100 * v.binding.utilisation, v.run.wall_s);
+               at_least(v, v.mean_power_w()), v.binding.unit, 100 * v.binding.utilisation,
+               v.run.wall_s);
   }
   fmt::print("\n");
 }
@@ -164,8 +165,7 @@ void print_area(const ViewResult& v, const std::string& technology, Detail detai
       v.stated_area_mm2 > 0 ? fmt::format(", {:.2f} stated", v.stated_area_mm2) : "";
   fmt::print("area {} mm2 at {}{}; {} with PHY and controller of {}\n",
              in_words(v.area_totals_mm2.without_memory_interface), technology, stated,
-             in_words(v.area_totals_mm2.with_memory_interface),
-             interface.area_of.empty() ? "the memory" : interface.area_of);
+             in_words(v.area_totals_mm2.with_memory_interface), interface.whose());
   if (!interface.area_known || detail == Detail::kAll) fmt::print("{}\n", interface.in_words());
   if (detail == Detail::kShort) return;
   fmt::print("  mm2 by kind: {}\n", in_words(v.area_mm2));
