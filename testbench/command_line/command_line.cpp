@@ -8,6 +8,7 @@
 #include <cctype>
 #include <charconv>
 #include <filesystem>
+#include <limits>
 
 #include "algorithm/files/input_error.h"
 #include "testbench/command_line/version.h"
@@ -34,6 +35,32 @@ CLI::Validator in_interval(Number lo, Number hi, const char* kind) {
         return good ? std::string() : fmt::format("got '{}', expected {}", text, allowed);
       },
       fmt::format("in [{}, {}]", lo, hi));
+}
+
+// texts: each time that the option was given.
+template <class Number>
+std::vector<Number> list_of(const std::vector<std::string>& texts, const char* name, Number lo,
+                            Number hi, const char* kind) {
+  const std::string text = join(texts, ",");
+  std::vector<Number> values;
+  const auto refuse = [&](const std::string& got, const std::string& expected) {
+    throw CLI::ValidationError(name, fmt::format("got '{}', whose number {} is {}, expected {}",
+                                                 text, values.size() + 1, got, expected));
+  };
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    Number value{};
+    if (!read(word, value) || !(value >= lo && value <= hi)) {
+      refuse(fmt::format("'{}'", word), fmt::format("{} from {} to {}", kind, lo, hi));
+    }
+    if (std::find(values.begin(), values.end(), value) != values.end()) {
+      refuse(word + " again", "different ones");
+    }
+    values.push_back(value);
+    begin = end + 1;
+  }
+  return values;
 }
 
 CLI::Validator not_empty() {
@@ -124,6 +151,16 @@ struct CommandLine::App {
   std::vector<std::unique_ptr<CommandLine>> commands;
   std::function<std::vector<std::string>()> keys;  // those of --set; none where it takes none
 
+  template <class Number>
+  void add_list(const char* name, std::vector<Number>& values, Number lo, Number hi,
+                const char* kind, const char* what) {
+    const auto take = [=, &values](const std::vector<std::string>& texts) {
+      values = list_of(texts, name, lo, hi, kind);
+    };
+    app->add_option_function<std::vector<std::string>>(name, take, what)
+        ->type_name("NUMBER,...")
+        ->allow_extra_args(false);
+  }
   template <class Value>
   CLI::Option* add(const char* name, Value& value, const char* what, Given given = Given::kMaybe) {
     return app->add_option(name, value, what)->required(given == Given::kAlways);
@@ -193,10 +230,7 @@ void CommandLine::real(const char* name, std::optional<double>& value, double lo
 
 void CommandLine::reals(const char* name, std::vector<double>& values, double lo, double hi,
                         const char* what) {
-  app_->add(name, values, what)
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(in_interval(lo, hi, "a number"));
+  app_->add_list(name, values, lo, hi, "a number", what);
 }
 
 // An option that may be repeated takes one value each time: what follows is another argument.
@@ -209,7 +243,7 @@ void CommandLine::list(const char* name, std::vector<std::string>& values, const
 }
 
 void CommandLine::numbers(const char* name, std::vector<int>& values, const char* what) {
-  app_->add(name, values, what)->delimiter(',')->allow_extra_args(false);
+  app_->add_list(name, values, 0, std::numeric_limits<int>::max(), "a whole number", what);
 }
 
 void CommandLine::needs(const char* name, const char* other) {

@@ -46,13 +46,13 @@ class CommandLine {
   void whole(const char* name, std::optional<std::uint32_t>& value, std::uint32_t lo,
              std::uint32_t hi, const char* what);
   void real(const char* name, std::optional<double>& value, double lo, double hi, const char* what);
-  // Finite numbers in [lo, hi], with commas between them.
+  // Different finite numbers in [lo, hi], with commas between them.
   void reals(const char* name, std::vector<double>& values, double lo, double hi, const char* what);
   // May be repeated, one text each.
   void texts(const char* name, std::vector<std::string>& values, const char* what);
   // Positional, any number of them.
   void list(const char* name, std::vector<std::string>& values, const char* what);
-  // Numbers with commas between them.
+  // Different whole numbers, at least 0, with commas between them.
   void numbers(const char* name, std::vector<int>& values, const char* what);
 
   // One option of this command is refused without another.
