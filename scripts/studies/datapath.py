@@ -24,7 +24,7 @@ from runs.scenes import (
     program_provenance,
     shared_folder,
 )
-from studies.gates import DELAY, NODE_NM, Library, ran, read_library, switched
+from studies.gates import DELAY, GATED_BITS, NODE_NM, Library, ran, read_library, switched
 from tables import Column, Study
 
 STABILITY = BINARY.with_name("stability")
@@ -309,6 +309,9 @@ MODULES = (
         sources=MERGE,
     ),
 )
+# Of cells alone: what the clock takes in a cycle, tree and wires with it.
+REGISTER_CLOCK = Module("clock of a register bit", "", one("register_clock"))
+CLOCK_GATE = Module(f"clock gate of {GATED_BITS} register bits", "", one("clock_gate"))
 
 MODULE = Column("module", "in modules/datapath/rtl, or in rtl of a unit in modules/streaminggs")
 SYNTHESIS_COLUMNS = (
@@ -428,6 +431,31 @@ def mapped_to(
     )
 
 
+def of_clock(library: Library) -> list[Mapped]:
+    """Of a register bit, and of a gate where the library has one; the mapping changes nothing."""
+    pins = [(REGISTER_CLOCK, 0.0, library.register_clock, 1)]
+    if library.gate_clock:
+        pins.append((CLOCK_GATE, library.gate_um2, library.gate_clock, GATED_BITS))
+    mapped = []
+    for (module, um2, pin, bits), mapping in itertools.product(pins, MAPPINGS):
+        pj = library.clock_pj(pin, bits)
+        node_pj = library.at_node(pj)
+        mapped.append(
+            Mapped(
+                library.name,
+                module,
+                mapping,
+                um2 / library.nand2_um2,
+                0,
+                0.0,
+                um2,
+                (pj, pj),
+                (node_pj, node_pj),
+            )
+        )
+    return mapped
+
+
 def priced(parts: Parts, of: str, unit: str) -> list[float]:
     """mm2 or pJ in the ledger's table, low, middle, high. of: `parts`, `published`."""
     rows = json.loads(TECHNOLOGY.read_text())[of]
@@ -463,17 +491,19 @@ def pj_of_gates(mapped: Sequence[Mapped], known: Sequence[Mapped]) -> list[float
 
 
 def um2_of_gates(mapped: Sequence[Mapped]) -> list[float]:
-    """Low, middle, high."""
+    """Low, middle, high; 0 of what takes none."""
     nand2 = [each.nand2 for each in mapped]
+    if not any(nand2):
+        return [0.0] * len(BAND)
     count = {"low": min(nand2), "middle": statistics.geometric_mean(nand2), "high": max(nand2)}
     return [count[of] * NAND2_UM2 / FILLED[of] for of in BAND]
 
 
-def constants(mapped: Sequence[Mapped]) -> dict[str, dict[str, dict[str, float]]]:
-    """Of the ledger, what gates say: mm2 and pj, low, middle, high, of each part that a module is
-    charged as; of several such modules the first."""
+def constants(mapped: Sequence[Mapped]) -> dict[str, dict]:
+    """Of the ledger, what gates say: mm2 and pj, low, middle, high, and register bits of each part
+    that a module is charged as; of several such modules the first."""
     known = [each for each in mapped if each.module.name == OF_KNOWN_ENERGY]
-    found: dict[str, dict[str, dict[str, float]]] = {}
+    found: dict[str, dict] = {}
     for module in dict.fromkeys(each.module for each in mapped):
         if isinstance(module.charged, str) or len(module.charged) != 1:
             continue
@@ -481,7 +511,9 @@ def constants(mapped: Sequence[Mapped]) -> dict[str, dict[str, dict[str, float]]
         of_module = [each for each in mapped if each.module == module]
         mm2 = [um2 / times * 1e-6 for um2 in um2_of_gates(of_module)]
         pj = [energy / times for energy in pj_of_gates(of_module, known)]
-        found.setdefault(kind, {"mm2": dict(zip(BAND, mm2)), "pj": dict(zip(BAND, pj))})
+        bits = of_module[0].register_bits / times
+        of_part = {"mm2": dict(zip(BAND, mm2)), "pj": dict(zip(BAND, pj)), "register_bits": bits}
+        found.setdefault(kind, of_part)
     return found
 
 
@@ -569,6 +601,8 @@ def make_synthesis(arguments: argparse.Namespace) -> None:
             libraries, logic.items(), MAPPINGS
         ):
             mapped.append(mapped_to(library, module, gates, mapping, folder))
+        for library in libraries:
+            mapped += of_clock(library)
     program = arguments.streaminggs
     by = tables.made(program, [program_provenance(program)], [*VERILOG, *SORTING, *MERGE, *paths])
     tables.write(arguments.out, "synthesis", by, SYNTHESIS_COLUMNS, [each.row() for each in mapped])
@@ -579,7 +613,8 @@ def make_synthesis(arguments: argparse.Namespace) -> None:
         node_row(
             module, [m for m in mapped if m.module == module], known, charged_as(module, datapaths)
         )
-        for module in chosen
+        for module in (*chosen, REGISTER_CLOCK, CLOCK_GATE)
+        if any(m.module == module for m in mapped)
     ]
     tables.write(arguments.out, "synthesis_32nm", by, NODE_COLUMNS, rows, NODE_ABOUT)
 

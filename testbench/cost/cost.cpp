@@ -33,7 +33,7 @@ std::string component_of(std::string use) {
 CostResult logic_area(const MachineResult& machine, const Technology& technology) {
   CostResult area;
   for (const Parts& part : machine.parts) {
-    add(area, part.component, part.count * technology.part(part.kind).mm2);
+    add(area, part.component, part.count * technology.mm2(part.kind));
   }
   return area;
 }
@@ -50,13 +50,49 @@ CostResult machine_area(const MachineResult& machine, const Technology& technolo
   return area;
 }
 
-// Area of all that is clocked and leaks as logic does: parts, and memories in registers.
-Band clocked_area(const MachineResult& machine, const Technology& technology) {
+// Area of all that leaks as logic does: parts, and memories in registers.
+Band leaking_area(const MachineResult& machine, const Technology& technology) {
   Band area = logic_area(machine, technology).total;
   for (const SramUse& use : machine.sram_uses) {
     if (use.in_registers()) area = area + technology.sram.mm2(use);
   }
   return area;
+}
+
+// Register bits that stand there, of parts and of memories built of registers; and how many of them
+// are clocked in all, where words are clocked only as they take something: those of a part by each
+// of its operations, those of a memory by each write.
+struct Clocked {
+  double bits = 0, gated = 0;
+};
+
+Clocked clocked(const MachineResult& machine, const Technology& technology) {
+  Clocked sum;
+  for (const Parts& part : machine.parts) {
+    sum.bits += part.count * technology.part(part.kind).register_bits;
+  }
+  for (const Operations& work : machine.operations) {
+    sum.gated += work.count * technology.part(work.kind).register_bits;
+  }
+  for (const SramUse& use : machine.sram_uses) {
+    if (!use.in_registers()) continue;
+    sum.bits += 8.0 * static_cast<double>(use.total_bytes());
+    for (const SramAccesses& accesses : machine.sram_accesses) {
+      if (accesses.use != use.name) continue;
+      sum.gated += static_cast<double>(accesses.writes) * use.shape.width_bits;
+    }
+  }
+  return sum;
+}
+
+// Low and middle: a gate before each word. High: no gate, all registers are clocked every cycle.
+Band clock_pj(const FrameResult& frame, const Technology& technology) {
+  const Clocked of = clocked(frame.machine, technology);
+  if (of.bits == 0) return {};
+  const Band& bit = technology.part(kRegisterClock).pj;
+  const double bit_cycles = of.bits * static_cast<double>(frame.cycles);
+  const Band gated = of.gated * bit + bit_cycles / kGatedBits * technology.part(kClockGate).pj;
+  return {gated.low, gated.middle, bit_cycles * bit.high};
 }
 
 SramUse write_queues(const FrameResult& frame, const Technology& technology) {
@@ -89,7 +125,7 @@ Band sram_leakage_mw(const MachineResult& machine, const Technology& technology)
 void add_leakage(CostResult& energy, const MachineResult& machine, double seconds,
                  const Technology& technology) {
   add(energy, "logic_leakage",
-      kMw * seconds * (technology.die.logic_leakage_mw_mm2 * clocked_area(machine, technology)));
+      kMw * seconds * (technology.die.logic_leakage_mw_mm2 * leaking_area(machine, technology)));
   add(energy, "sram_leakage", kMw * seconds * sram_leakage_mw(machine, technology));
 }
 
@@ -121,7 +157,7 @@ CostResult area_by_owner(const FrameResult& frame, const Technology& technology)
   CostResult area;
   for (const OwnerResult& owner : frame.machine.owners) {
     for (const Parts& part : owner.parts) {
-      add(area, owner.owner, part.count * technology.part(part.kind).mm2);
+      add(area, owner.owner, part.count * technology.mm2(part.kind));
     }
     add(area, owner.owner, sram_area(owner.sram_uses, technology));
   }
@@ -146,9 +182,7 @@ CostResult energy_of(const FrameResult& frame, const Technology& technology) {
   }
   for (const SramUse& use : machine.sram_uses)
     add(energy, component_of(use.name), access_energy_j(machine, use, technology.sram));
-  const auto cycles = static_cast<double>(frame.cycles);
-  add(energy, "clock",
-      cycles * kPj * (technology.die.clock_pj_mm2_cycle * clocked_area(machine, technology)));
+  add(energy, "clock", kPj * clock_pj(frame, technology));
   add_leakage(energy, machine, frame.time_s(), technology);
   if (technology.memory_interface.counted) {
     const SramUse queues = write_queues(frame, technology);

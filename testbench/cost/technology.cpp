@@ -184,15 +184,20 @@ const PartCost& Technology::part(const std::string& kind) const {
       "{}: parts: got no row \"{}\", expected one for all that a machine is made of", path, kind));
 }
 
+Band Technology::mm2(const std::string& kind) const {
+  const PartCost& of = part(kind);
+  return of.register_bits == 0 ? of.mm2
+                               : of.mm2 + of.register_bits / kGatedBits * part(kClockGate).mm2;
+}
+
 void visit(ConfigVisitor& v, PartCost& cost) {
   v.section("mm2", cost.mm2, "square millimetres of one");
-  v.section("pj", cost.pj, "picojoules of one operation");
+  v.section("pj", cost.pj, "picojoules of one operation, without its clock");
+  v("register_bits", cost.register_bits, in_range(0, 1e9), "flip-flops in one");
   v("source", cost.source, "where the numbers are from, and how sure they are");
 }
 
 void visit(ConfigVisitor& v, DieCost& cost) {
-  v.section("clock_pj_mm2_cycle", cost.clock_pj_mm2_cycle,
-            "picojoules of the clock tree for each square millimetre and cycle");
   v.section("logic_leakage_mw_mm2", cost.logic_leakage_mw_mm2,
             "milliwatts that a square millimetre of logic leaks");
   v("source", cost.source, "where the numbers are from, and how sure they are");

@@ -88,15 +88,22 @@ struct SramModel {
 void visit(ConfigVisitor& v, SramPoint& point);
 void visit(ConfigVisitor& v, SramModel& model);
 
-// A part of logic, and one operation that it does.
+// A part of logic, and one operation that it does. An operation clocks each of its register bits
+// once.
 struct PartCost {
   Band mm2, pj;
+  double register_bits = 0;
   std::string source;
 };
 
+// Rows of the technology table for the clock: of a register bit, what a cycle takes that it is
+// clocked in; of a gate, what each cycle takes.
+constexpr const char *kRegisterClock = "register_clock", *kClockGate = "clock_gate";
+// Register bits that one gate gives the clock: a word.
+constexpr double kGatedBits = 32;
+
 // Cost of the die beneath all parts, by area.
 struct DieCost {
-  Band clock_pj_mm2_cycle;  // clock tree and registers, of logic
   Band logic_leakage_mw_mm2;
   std::string source;
 };
@@ -127,6 +134,8 @@ struct Technology {
 
   // Throws InputError, naming the kind, where the table has no such row.
   const PartCost& part(const std::string& kind) const;
+  // Of one, with the clock gates of its registers. Throws as above.
+  Band mm2(const std::string& kind) const;
 };
 
 void visit(ConfigVisitor& v, PartCost& cost);

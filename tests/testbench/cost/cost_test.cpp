@@ -24,15 +24,16 @@ Technology priced() {
   const auto around = [](double value) { return Band{value / 2, value, 3 * value}; };
   Technology technology;
   technology.name = "test";
-  technology.parts = {{"lane", {around(0.25), around(5000), ""}},
-                      {"comparator", {around(0.01), around(300), ""}}};
+  technology.parts = {{"lane", {around(0.25), around(5000), 64, ""}},
+                      {"comparator", {around(0.01), around(300), 0, ""}},
+                      {kRegisterClock, {same(0), around(11), 0, ""}},
+                      {kClockGate, {same(0), around(17), 0, ""}}};
   technology.sram.um2_bit = 1e3;
   technology.sram.um2_register = same(1e6);
   technology.sram.pj_width = 2;
   technology.sram.macro = technology.sram.placed = technology.sram.access = same(1);
   technology.sram.write_of_read = same(1.5);
   technology.sram.leakage_mw_kib = same(7);
-  technology.die.clock_pj_mm2_cycle = around(11);
   technology.die.logic_leakage_mw_mm2 = around(13);
   technology.memory_interface.gb_s = 6.4;
   technology.memory_interface.mm2 = same(0.5);
@@ -75,7 +76,8 @@ TEST_CASE("cost: each kind of work at its own price, summed by component") {
   CHECK(of(energy, "idle").middle == 0);
   // 64 bits at 2 pJ; a write 1.5 of it.
   CHECK(of(energy, "first_halves").middle == Approx((20 + 6 * 1.5) * 128e-12));
-  CHECK(of(energy, "clock").middle == Approx(2000 * 3.0 * 11e-12));
+  // 64 register bits of a lane by each of 3 operations; 16 gates of 32 bits each cycle.
+  CHECK(of(energy, "clock").middle == Approx((3 * 64 * 11 + 2000 * 16 * 17) * 1e-12));
   CHECK(of(energy, "logic_leakage").middle == Approx(3.0 * 13e-3 * 2e-6));
   CHECK(of(energy, "sram_leakage").middle == Approx(2 * 7e-3 * 2e-6));
   CHECK(of(energy, "dram").middle == 1e-6);
@@ -91,6 +93,19 @@ TEST_CASE("cost: each kind of work at its own price, summed by component") {
   CHECK(area.total.middle == Approx(3 + 16.384));
 }
 
+TEST_CASE("cost: each word of registers has a clock gate") {
+  Technology technology = priced();
+  technology.parts.at(kClockGate).mm2 = same(0.5);
+  const CostResult area = area_of(frame(), technology), without = area_of(frame(), priced());
+  CHECK(of(area, "filter").middle == Approx(of(without, "filter").middle + 8 * 2 * 0.5));
+  CHECK(of(area, "heap").middle == of(without, "heap").middle);
+  for (const char* row : {kRegisterClock, kClockGate}) {
+    technology = priced();
+    technology.parts.erase(row);
+    CHECK(input_error_of([&] { energy_of(frame(), technology); }).find(row) != std::string::npos);
+  }
+}
+
 TEST_CASE("cost: bounds follow their constants") {
   const CostResult area = area_of(frame(), priced()), energy = energy_of(frame(), priced());
   CHECK(of(area, "filter").low == Approx(1));
@@ -98,8 +113,9 @@ TEST_CASE("cost: bounds follow their constants") {
   CHECK(area.total.low == Approx(1.5 + 16.384));
   CHECK(area.total.high == Approx(9 + 16.384));
   CHECK(of(energy, "heap").low == Approx(5 * 300e-12));
-  // More area at a higher price.
-  CHECK(of(energy, "clock").high == Approx(9 * of(energy, "clock").middle));
+  CHECK(of(energy, "clock").low == Approx(of(energy, "clock").middle / 2));
+  // Without gates 8 lanes are clocked in every cycle.
+  CHECK(of(energy, "clock").high == Approx(2000 * 8 * 64 * 3 * 11e-12));
   CHECK(of(energy, "dram").low == 0.75e-6);
   CHECK(of(energy, "dram").high == 1.75e-6);
   for (double Band::*end : {&Band::low, &Band::middle, &Band::high}) {
@@ -275,7 +291,8 @@ TEST_CASE("cost: tables that say less than they must, or bands out of order, are
             ": parts.fp32_chaining_lane.pj: got low 99, middle 2.99, high"},
            {"/parts/fp32_lane/pj", {}, ": parts.fp32_lane.pj.low: got nothing, expected it"},
            {"/sram/macro/high", {}, ": sram.macro.high: got nothing"},
-           {"/die", {}, ": die.clock_pj_mm2_cycle.low: got nothing"},
+           {"/die", {}, ": die.logic_leakage_mw_mm2.low: got nothing"},
+           {"/parts/fp32_lane/register_bits", {}, ": parts.fp32_lane.register_bits: got nothing"},
            {"/memory_interface/gb_s", {}, ": memory_interface.gb_s: got nothing"},
            {"/memory_interface/counted", {}, ": memory_interface.counted: got nothing"},
            {"/parts/fp32_lane/source", {}, ": parts.fp32_lane.source: got nothing"},
@@ -339,7 +356,7 @@ TEST_CASE("cost: the shipped table says what its sources say") {
     for (const auto& [kind, part] : *table) {
       INFO(kind);
       for (const Band& band : {part.mm2, part.pj}) {
-        CHECK(band.low > 0);
+        CHECK((band.low > 0 || kind == kRegisterClock));
         CHECK(band.low <= band.middle);
         CHECK(band.middle <= band.high);
       }
@@ -489,14 +506,18 @@ TEST_CASE("cost: a short memory is a macro with rows to spare, or registers if t
 TEST_CASE("cost: memories in registers have a clock and leak as logic does") {
   FrameResult with = frame();
   add(with.machine.sram_uses, sram_use("queue", "shared", {{8, "B"}}, {64}, kOneOfEach), 3);
+  with.machine.sram_accesses.push_back({"queue", 4, 5});
   const CostResult energy = energy_of(with, priced()), without = energy_of(frame(), priced());
   const double mm2 = 3 * 64 * 1e6 * 1e-6;
   CHECK(of(area_of(with, priced()), "sram").middle ==
         Approx(of(area_of(frame(), priced()), "sram").middle + mm2));
+  // 5 writes of 64 bits, and two gates of each of 3 queues.
   CHECK(of(energy, "clock").middle ==
-        Approx(of(without, "clock").middle * (1 + mm2 / 3)));  // of 3 mm2 of parts
+        Approx(of(without, "clock").middle + (5 * 64 * 11 + 2000 * 6 * 17) * 1e-12));
+  CHECK(of(energy, "clock").high ==
+        Approx(of(without, "clock").high + 2000 * 3 * 64 * 3 * 11e-12));
   CHECK(of(energy, "logic_leakage").middle ==
-        Approx(of(without, "logic_leakage").middle * (1 + mm2 / 3)));
+        Approx(of(without, "logic_leakage").middle * (1 + mm2 / 3)));  // of 3 mm2 of parts
   CHECK(of(energy, "sram_leakage").middle == of(without, "sram_leakage").middle);
 }
 

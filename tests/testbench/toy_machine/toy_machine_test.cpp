@@ -81,7 +81,7 @@ TEST_CASE("toy machine: binding, energy, area and SRAM follow from its data shee
 
   const Technology technology = load_technology(SGS_TECHNOLOGY);
   const auto pj = [&](const char* kind) { return technology.part(kind).pj.middle * 1e-12; };
-  const auto mm2 = [&](const char* kind) { return technology.part(kind).mm2.middle; };
+  const auto mm2 = [&](const char* kind) { return technology.mm2(kind).middle; };
   const Json& energy = view["energy"];
   CHECK(energy["adder_j"] == Approx(3 * kGaussians * pj("fp32_lane")));
   CHECK(energy["writer_j"] == Approx(kPixels * pj("comparator")));
@@ -94,16 +94,23 @@ TEST_CASE("toy machine: binding, energy, area and SRAM follow from its data shee
   const double path = 2 * 2 * 256 * (mm2("register_bit") + 4 * mm2("crossbar_bit"));
   const double logic = 3 * mm2("fp32_lane") + 4 * mm2("comparator") + path;
   // What the queues hold of blocks, writes and colours are registers, and clocked too.
-  double registers = 0;
+  const double of_lane = technology.part("fp32_lane").register_bits;
+  double register_bits = 2 * 2 * 256 + 3 * of_lane, bits_written = 3 * kGaussians * of_lane;
   std::set<std::string> in_registers;
   for (const Json& use : view["sram"]["uses"]) {
     if (use["built_as"] != "registers") continue;
-    registers += use["mm2"].get<double>();
+    register_bits += 8 * use["bytes"].get<double>();
+    bits_written += use["writes"].get<double>() * use["width_bits"].get<double>();
     in_registers.insert(use["name"]);
   }
   CHECK(in_registers == std::set<std::string>{"fetched", "pixels", "colours"});
-  CHECK(energy["clock_j"] ==
-        Approx(frame * (logic + registers) * technology.die.clock_pj_mm2_cycle.middle * 1e-12));
+  // Beside these what passes the way to the memory is clocked, and gates are in each cycle.
+  const double on_the_way = view["energy"]["memory_path_j"].get<double>() /
+                            (pj("register_bit") + pj("crossbar_bit"));
+  CHECK(energy["clock_j"] == Approx((bits_written + on_the_way) * pj(kRegisterClock) +
+                                    frame * register_bits / kGatedBits * pj(kClockGate)));
+  CHECK(energy["bands"]["clock_j"]["high"] ==
+        Approx(frame * register_bits * technology.part(kRegisterClock).pj.high * 1e-12));
   double sum = 0;
   for (const auto& [part, joules] : energy.items()) {
     if (part == "total_j" || part == "bands" || part.find("_j") != part.size() - 2) continue;
