@@ -8,8 +8,12 @@ namespace sgs {
 namespace {
 
 struct Life {
-  std::uint32_t from = 0, cycles = 0;  // 0: no value
+  std::uint32_t from = 0, cycles = 0;  // 0: no value, or none that waits
 };
+
+bool leaves_lane(StepBy by) {
+  return part_kind(by) == StepBy::kLane || by == StepBy::kSum;
+}
 
 std::vector<Life> lives(const std::vector<LaneStep>& steps, const FoldedSchedule& schedule,
                         const OperationLatencies& latencies) {
@@ -26,9 +30,10 @@ std::vector<Life> lives(const std::vector<LaneStep>& steps, const FoldedSchedule
   }
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (steps[i].answers || (!taken[i] && !steps[i].kept)) continue;
-    const std::uint32_t from = schedule.begins[i] + cycles_of(steps[i].by, latencies);
+    const std::uint32_t in_lane = leaves_lane(steps[i].by) ? 1 : 0;
+    const std::uint32_t from = schedule.begins[i] + cycles_of(steps[i].by, latencies) + in_lane;
     const std::uint32_t until = steps[i].kept ? schedule.cycles : last[i];
-    out[i] = {from, until - from + 1};
+    out[i] = {from, until + 1 - from};
   }
   return out;
 }
@@ -129,7 +134,15 @@ class Wiring {
   std::uint64_t input_of(const LaneStep::Source& source, std::uint32_t cycle) const {
     if (source.value.is_constant) return kConstant | source.value.of;
     const std::uint32_t value = source.value.of;
+    if (cycle < lives_[value].from) return output_of(value);
     return chains_[value][(cycle - lives_[value].from) / interval_];
+  }
+
+  // Of a step that has its part.
+  std::uint64_t output_of(std::uint32_t step) const {
+    const StepBy by = steps_[step].by;
+    if (by == StepBy::kOutside) return kOutsideOf | step;
+    return (by == StepBy::kProduct ? kProductOf : kPart) | part_of_[step];
   }
 
   struct Part {
@@ -164,9 +177,8 @@ class Wiring {
 
   void give(std::uint32_t step, std::vector<Part>& parts, std::uint32_t first_of_kind) {
     const StepBy by = steps_[step].by;
-    std::uint64_t output = kOutsideOf | step;
     if (by == StepBy::kSum) {
-      output = kPart | part_of_[steps_[step].sources.front().value.of];
+      part_of_[step] = part_of_[steps_[step].sources.front().value.of];
     } else if (by != StepBy::kOutside) {
       const std::uint64_t leaves = by == StepBy::kProduct ? kProductOf : kPart;
       std::size_t best = parts.size();
@@ -191,8 +203,8 @@ class Wiring {
         port.take(input_of(source, schedule_.begins[step]));
       }
       part_of_[step] = first_of_kind + static_cast<std::uint32_t>(best);
-      output = leaves | part_of_[step];
     }
+    std::uint64_t output = output_of(step);
     for (const std::uint32_t to : chains_[step]) {
       registers_[to].take(output);
       output = to;

@@ -19,7 +19,8 @@ struct LaneWiring {
 };
 
 // A value is in a register from the cycle in which it is there until the last step that takes it
-// begins. A value wanted at the end stays until then; one from outside is there as a whole. Where
+// begins; one of a lane a cycle later, since its first is in the lane's own last register. A value
+// wanted at the end stays until then; one from outside is there as a whole. Where
 // it lasts longer than an interval, the next item's pushes it on into another register. Registers
 // that are taken for a part of the interval are shared. An answer of a comparison, a bit, is left
 // out, and so are a lane's own stages. A constant, which may be of the frame or of the group, has

@@ -185,22 +185,22 @@ TEST_CASE("lane wiring: registers and multiplexers by hand") {
     LaneWiring expected;  // words of registers, of multiplexers; written, selected
   };
   const Row rows[] = {
-      // Two inputs and the product, a cycle each.
+      // Two inputs, a cycle each; the product stays in the lane.
       {"a product on its lane",
        {1, 0, 0, 1},
        [](Counting a, Counting b, Counting) { return a * b; },
-       {3, 0, 3, 0}},
+       {2, 0, 2, 0}},
       // c waits for 2 cycles: a register each, for an item comes each cycle.
       {"a factor that waits",
        {2, 0, 0, 1},
        [](Counting a, Counting b, Counting c) { return a * b * c; },
-       {2 + 3 + 1 + 1, 0, 7, 0}},
-      // c waits in two registers, the product between its turns in one; a and the result share
-      // one, which takes now this, now that. The lane takes a or the product, b or c.
+       {2 + 3, 0, 5, 0}},
+      // c waits in two registers; a and the product, a cycle between its turns, share one, which
+      // takes now this, now that. The lane takes b or c.
       {"the same on one lane",
        {1, 0, 0, 2},
        [](Counting a, Counting b, Counting c) { return a * b * c; },
-       {5, 3, 6, 6}},
+       {4, 2, 5, 4}},
   };
   for (const Row& row : rows) {
     INFO(row.what);
