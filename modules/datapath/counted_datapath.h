@@ -2,6 +2,7 @@
 // from the schedule of its steps on its lanes.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -28,21 +29,23 @@ constexpr PartsOfFormat kHalfParts{"fp16_lane",       "fp16_lane",  "half_compar
 // Steps of a schedule that an operation of a part beside the lanes takes.
 struct StepsOfPart {
   const char* kind;
+  BesideLane does;
   std::uint32_t comparator, table;
 };
-constexpr StepsOfPart kStepsOfParts[] = {{"number_comparator", 1, 0},
-                                         {"half_comparator", 1, 0},
-                                         {"adder", 1, 0},
-                                         {"half_scale", kScalingComparisons, 0},
-                                         {"conversion", kConversionComparisons, 0},
-                                         {"rounding", kRoundingComparisons, 0},
-                                         {"exp2_split", kSplitComparisons, 0},
-                                         {"exp2_split_half", kSplitComparisons, 0},
-                                         {"seed_table", 0, 1},
-                                         {"logarithm_table", kLogarithmComparisons, 1},
-                                         {"reach_table", 0, 1},
-                                         {"exp2_table", 0, 1},
-                                         {"exp2_table_half", 0, 1}};
+constexpr StepsOfPart kStepsOfParts[] = {
+    {"number_comparator", BesideLane::kComparison, 1, 0},
+    {"half_comparator", BesideLane::kComparison, 1, 0},
+    {"half_scale", BesideLane::kScaling, kScalingComparisons, 0},
+    {"adder", BesideLane::kAddition, 1, 0},
+    {"conversion", BesideLane::kConversion, kConversionComparisons, 0},
+    {"rounding", BesideLane::kRounding, kRoundingComparisons, 0},
+    {"exp2_split", BesideLane::kSplit, kSplitComparisons, 0},
+    {"exp2_split_half", BesideLane::kSplit, kSplitComparisons, 0},
+    {"seed_table", BesideLane::kSeed, 0, 1},
+    {"logarithm_table", BesideLane::kLogarithm, kLogarithmComparisons, 1},
+    {"reach_table", BesideLane::kLookUp, 0, 1},
+    {"exp2_table", BesideLane::kLookUp, 0, 1},
+    {"exp2_table_half", BesideLane::kLookUp, 0, 1}};
 
 inline StepsOfPart steps_of(const std::string& kind) {
   for (const StepsOfPart& part : kStepsOfParts) {
@@ -116,6 +119,25 @@ inline BetweenLanes between_lanes(const LaneWiring& wiring, std::uint32_t value_
           value_bits * wiring.words_written, value_bits * wiring.words_selected};
 }
 
+// Whether a part does such operations. An adder scales numbers in single precision, too.
+inline bool does(const BesideLanes& part, BesideLane operation) {
+  if (operation == BesideLane::kScaling && part.kind == kSingleParts.scaling) return true;
+  return steps_of(part.kind).does == operation;
+}
+
+// Builds as many parts of each kind as begin an operation in one cycle of the schedule.
+inline void build_for(Datapath& path, const std::vector<LaneStep>& steps,
+                      const FoldedSchedule& schedule, std::uint32_t interval_cycles) {
+  for (BesideLanes& part : path.beside) {
+    std::vector<std::uint32_t> begun(interval_cycles);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      if (steps[i].begins == BesideLane::kNone || !does(part, steps[i].begins)) continue;
+      std::uint32_t& in_cycle = begun[schedule.begins[i] % interval_cycles];
+      part.built_for = std::max(part.built_for, ++in_cycle);
+    }
+  }
+}
+
 // Lanes, copies and charge must be what they will be. value_bits: of a value between two steps.
 // Throws std::logic_error where the steps take more lanes than there are, unless the charge is a
 // published one, which may be less than was counted.
@@ -126,6 +148,7 @@ inline void schedule(Datapath& path, const std::vector<LaneStep>& steps,
   if (path.used_macs == path.counted_macs && folded.parts.lanes > path.lanes) {
     throw std::logic_error(path.name + ": its steps take more lanes than are charged");
   }
+  build_for(path, steps, folded.schedule, interval);
   path.between = between_lanes(folded.wiring, value_bits);
   path.depth_cycles = folded.schedule.cycles;
   path.loop_cycles = folded.schedule.loop_cycles;

@@ -11,9 +11,7 @@ struct Life {
   std::uint32_t from = 0, cycles = 0;  // 0: no value, or none that waits
 };
 
-bool leaves_lane(StepBy by) {
-  return part_kind(by) == StepBy::kLane || by == StepBy::kSum;
-}
+bool leaves_lane(StepBy by) { return part_kind(by) == StepBy::kLane || by == StepBy::kSum; }
 
 std::vector<Life> lives(const std::vector<LaneStep>& steps, const FoldedSchedule& schedule,
                         const OperationLatencies& latencies) {

@@ -90,11 +90,22 @@ class Expansion {
   Operand multiply_add(Operand a, Operand b, Operand c) {
     return push(StepBy::kLane, {{0, a}, {1, b}, {2, c}});
   }
-  Operand look_up(Operand of) { return push(StepBy::kTable, {{0, of}}); }
-  Operand compared(Operand a) { return push(StepBy::kComparator, {{0, a}}); }
-  Operand compared(Operand a, Operand b) { return push(StepBy::kComparator, {{0, a}, {1, b}}); }
-  Operand compared_in_a_row(Operand a, std::uint32_t times) {
-    for (std::uint32_t i = 0; i < times; ++i) a = compared(a);
+  Operand begun(BesideLane operation, Operand of) {
+    steps_[of.of].begins = operation;
+    return of;
+  }
+  Operand look_up(BesideLane operation, Operand of) {
+    return begun(operation, push(StepBy::kTable, {{0, of}}));
+  }
+  Operand compared(BesideLane operation, Operand a) {
+    return begun(operation, push(StepBy::kComparator, {{0, a}}));
+  }
+  Operand compared(BesideLane operation, Operand a, Operand b) {
+    return begun(operation, push(StepBy::kComparator, {{0, a}, {1, b}}));
+  }
+  Operand compared_in_a_row(BesideLane operation, Operand a, std::uint32_t times) {
+    a = compared(operation, a);
+    for (std::uint32_t i = 1; i < times; ++i) a = compared(BesideLane::kNone, a);
     return a;
   }
 
@@ -159,7 +170,7 @@ class Expansion {
     if (!is_new) return at->second;
     if (node.first_division < first_) return at->second = push(StepBy::kOutside, {});
     const Operand d = value_of(node.b);
-    Operand r = look_up(d);
+    Operand r = look_up(BesideLane::kSeed, d);
     for (int i = 0; i < 2; ++i) r = multiply_add(r, multiply_add(d, r, literal(1)), r);
     return at->second = r;
   }
@@ -172,7 +183,7 @@ class Expansion {
   // g = x y and h = y / 2, which is a matter of its exponent; twice r = 1/2 - g h, g += g r, h += h
   // r.
   Operand root(Operand x) {
-    Operand h = look_up(x);
+    Operand h = look_up(BesideLane::kSeed, x);
     Operand g = product(x, h);
     for (int i = 0; i < 2; ++i) {
       const Operand r = multiply_add(g, h, literal(0.5F));
@@ -183,8 +194,8 @@ class Expansion {
   }
   // The exponent apart, to float; z / c - 1 = r; log c + k ln2; the cubic in r.
   Operand logarithm(Operand x) {
-    const Operand apart = compared(x);
-    const Operand row = look_up(apart);
+    const Operand apart = compared(BesideLane::kLogarithm, x);
+    const Operand row = look_up(BesideLane::kNone, apart);
     const Operand r = multiply_add(apart, row, literal(-1));
     const Operand log_c = multiply_add(push(StepBy::kLane, {{2, apart}}), literal(0.6931F), row);
     const Operand r2 = product(r, r);
@@ -194,14 +205,15 @@ class Expansion {
   // The ends of its range; n = x / ln2, rounded; x - n ln2 in two parts; polynomial; 2^n.
   Operand exponential(Operand x) {
     for (const float end : {88.0F, -88.0F}) {
-      compared(x, literal(end));
+      compared(BesideLane::kComparison, x, literal(end));
       steps_.back().answers = true;
     }
-    const Operand n = compared_in_a_row(product(x, literal(1.4427F)), kRoundingComparisons);
+    const Operand n = compared_in_a_row(BesideLane::kRounding, product(x, literal(1.4427F)),
+                                        kRoundingComparisons);
     const Operand rest = multiply_add(n, literal(1e-6F), multiply_add(n, literal(0.6931F), x));
     Operand p = multiply_add(rest, literal(0.001F), literal(0.01F));
     for (int i = 0; i < 6; ++i) p = multiply_add(p, rest, literal(static_cast<float>(i)));
-    return compared(p, n);
+    return compared(BesideLane::kScaling, p, n);
   }
 
   Operand made(std::uint32_t number) {
@@ -229,31 +241,35 @@ class Expansion {
       case Operation::kExponential:
         return exponential(value_of(node.a));
       case Operation::kLookUp:
-        return look_up(value_of(node.a));
+        return look_up(BesideLane::kLookUp, value_of(node.a));
       case Operation::kSplit:
-        return compared_in_a_row(value_of(node.a), kSplitComparisons);
+        return compared_in_a_row(BesideLane::kSplit, value_of(node.a), kSplitComparisons);
       case Operation::kCompare: {
         const Operand a = value_of(node.a), b = value_of(node.b);
-        return answer(compared(a, b));
+        return answer(compared(BesideLane::kComparison, a, b));
       }
       case Operation::kIsFinite:
-        return answer(compared(value_of(node.a)));
+        return answer(compared(BesideLane::kComparison, value_of(node.a)));
       case Operation::kMinimum:
       case Operation::kMaximum:
+        return of_two(BesideLane::kComparison, node);
       case Operation::kScale:
-      case Operation::kAddIndex: {
-        const Operand a = value_of(node.a), b = value_of(node.b);
-        return compared(a, b);
-      }
+        return of_two(BesideLane::kScaling, node);
+      case Operation::kAddIndex:
+        return of_two(BesideLane::kAddition, node);
       case Operation::kCeil:
       case Operation::kFloor:
       case Operation::kTruncate:
       case Operation::kRound:
-        return compared_in_a_row(value_of(node.a), kRoundingComparisons);
+        return compared_in_a_row(BesideLane::kRounding, value_of(node.a), kRoundingComparisons);
       case Operation::kFromIndex:
-        return compared_in_a_row(value_of(node.a), kConversionComparisons);
+        return compared_in_a_row(BesideLane::kConversion, value_of(node.a), kConversionComparisons);
     }
     return {};
+  }
+  Operand of_two(BesideLane operation, const DataFlow::Node& node) {
+    const Operand a = value_of(node.a), b = value_of(node.b);
+    return compared(operation, a, b);
   }
   Operand answer(Operand of) {
     steps_[of.of].answers = true;

@@ -99,6 +99,20 @@ constexpr std::uint32_t cycles_of(StepBy by, const OperationLatencies& latencies
   return 0;
 }
 
+// Operations of parts beside the lanes. Some take several steps.
+enum class BesideLane : std::uint8_t {
+  kNone,
+  kComparison,
+  kRounding,
+  kSplit,
+  kScaling,
+  kAddition,
+  kConversion,
+  kSeed,
+  kLogarithm,
+  kLookUp
+};
+
 // What a step takes a cycle of: a lane for a product, nothing for its sum.
 constexpr StepBy part_kind(StepBy by) {
   return by == StepBy::kProduct ? StepBy::kLane : by == StepBy::kSum ? StepBy::kOutside : by;
@@ -113,8 +127,9 @@ struct LaneStep {
 
   StepBy by = StepBy::kOutside;
   std::vector<Source> sources;
-  bool answers = false;  // a comparison's answer, which is no value
-  bool kept = false;     // its value is wanted at the end
+  BesideLane begins = BesideLane::kNone;  // the operation whose first step it is
+  bool answers = false;                   // a comparison's answer, which is no value
+  bool kept = false;                      // its value is wanted at the end
   // For a value from outside: 0 if it is there at the beginning, else the number of its list.
   // Values of a list come together, when the first of them is taken.
   std::uint32_t comes_with = 0;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "algorithm/splat/counting.h"
+#include "modules/datapath/counted_datapath.h"
 #include "modules/datapath/filter_flows.h"
 #include "modules/datapath/folded_pipeline.h"
 #include "modules/datapath/lane_steps.h"
@@ -150,6 +151,40 @@ TEST_CASE("folded schedule: lives are no longer for being moved, and the end is 
     CHECK(schedule.cycles <= cycles);
     CHECK(words() <= before);
   }
+}
+
+TEST_CASE("folded schedule: as many parts of a kind stand there as begin in a cycle") {
+  bool one_cycle_takes_more = false;
+  for (const Work& work : all_work()) {
+    INFO(work.what);
+    Datapath path = counted_datapath("work", "work", work.counts);
+    path.lanes = 4;
+    const auto at_full_rate = [&](std::uint32_t operations) {
+      return (operations * path.lanes + path.used_macs - 1) / path.used_macs;
+    };
+    schedule(path, work.steps, kLatencies);
+    const auto interval = static_cast<std::uint32_t>(path.interval_cycles());
+    const FoldedPipeline folded = folded_pipeline(work.steps, parts_of(path, interval), kLatencies);
+    std::map<std::string, std::map<std::uint32_t, std::uint32_t>> begun;  // [kind][cycle]
+    std::map<std::string, std::uint32_t> operations;
+    for (std::size_t i = 0; i < work.steps.size(); ++i) {
+      for (const BesideLanes& part : path.beside) {
+        const BesideLane begins = work.steps[i].begins;
+        if (begins == BesideLane::kNone || !does(part, begins)) continue;
+        ++operations[part.kind];
+        ++begun[part.kind][folded.schedule.begins[i] % interval];
+      }
+    }
+    for (const BesideLanes& part : path.beside) {
+      INFO(part.kind);
+      CHECK(operations[part.kind] == part.operations);
+      std::uint32_t most = 0;
+      for (const auto& [cycle, count] : begun[part.kind]) most = std::max(most, count);
+      CHECK(path.parts(part) == std::max(most, at_full_rate(part.operations)));
+      one_cycle_takes_more |= most > at_full_rate(part.operations);
+    }
+  }
+  CHECK(one_cycle_takes_more);
 }
 
 TEST_CASE("folded schedule: too few parts are refused") {

@@ -514,8 +514,7 @@ TEST_CASE("cost: memories in registers have a clock and leak as logic does") {
   // 5 writes of 64 bits, and two gates of each of 3 queues.
   CHECK(of(energy, "clock").middle ==
         Approx(of(without, "clock").middle + (5 * 64 * 11 + 2000 * 6 * 17) * 1e-12));
-  CHECK(of(energy, "clock").high ==
-        Approx(of(without, "clock").high + 2000 * 3 * 64 * 3 * 11e-12));
+  CHECK(of(energy, "clock").high == Approx(of(without, "clock").high + 2000 * 3 * 64 * 3 * 11e-12));
   CHECK(of(energy, "logic_leakage").middle ==
         Approx(of(without, "logic_leakage").middle * (1 + mm2 / 3)));  // of 3 mm2 of parts
   CHECK(of(energy, "sram_leakage").middle == of(without, "sram_leakage").middle);

@@ -105,8 +105,8 @@ TEST_CASE("toy machine: binding, energy, area and SRAM follow from its data shee
   }
   CHECK(in_registers == std::set<std::string>{"fetched", "pixels", "colours"});
   // Beside these what passes the way to the memory is clocked, and gates are in each cycle.
-  const double on_the_way = view["energy"]["memory_path_j"].get<double>() /
-                            (pj("register_bit") + pj("crossbar_bit"));
+  const double on_the_way =
+      view["energy"]["memory_path_j"].get<double>() / (pj("register_bit") + pj("crossbar_bit"));
   CHECK(energy["clock_j"] == Approx((bits_written + on_the_way) * pj(kRegisterClock) +
                                     frame * register_bits / kGatedBits * pj(kClockGate)));
   CHECK(energy["bands"]["clock_j"]["high"] ==
