@@ -3,7 +3,8 @@
 // node: two keys and its two counts. Each level compares two pairs of keys, each with key_words
 // comparators of 32 bits.
 //
-// Between the memories, a level, with keys of K bits and nodes of N:
+// Between the memories, a level, with keys of K bits and nodes of N; `heap_bit` is a bit of these
+// multiplexers with its part of what else the level's gates are:
 //   - registers for the key that sinks and for the node that waits to be written: K + N
 //   - multiplexers for keys that an insert swaps at either end and that a hole takes: 7 K
 //   - multiplexers for words read: a word written in the same cycle passes by each bank; two of the
@@ -79,8 +80,8 @@ struct HeapLedger {
     }
     sheet.part(component, "register_bit", registers, 1);
     sheet.operations(component, "register_bit", registered);
-    sheet.part(component, "select_bit", multiplexers, 1);
-    sheet.operations(component, "select_bit", selected);
+    sheet.part(component, "heap_bit", multiplexers, 1);
+    sheet.operations(component, "heap_bit", selected);
     sheet.part(component, "comparator", double{kOfLevel} * key_words * heap_levels(entries), 1);
     sheet.operations(component, "comparator",
                      static_cast<double>(key_words) * static_cast<double>(work.comparisons));

@@ -176,7 +176,8 @@ Parts = tuple[tuple[str, float], ...]  # kinds and how many
 @dataclasses.dataclass(frozen=True)
 class Module:
     """top, parameters: in Verilog. charged: parts of the ledger, or the datapath of `exact` that
-    has them beside so many lanes. published: what published constants have for it. apart: modules
+    has them beside so many lanes. rest: the charged part that has what the others leave of the
+    module. published: what published constants have for it. apart: modules
     in it that are counted by themselves. interval: cycles that its input `phase` counts. sources:
     what is read with it; mappers choose by order, so another file there moves a number."""
 
@@ -189,6 +190,7 @@ class Module:
     lanes: int = 0
     interval: int = 1
     sources: tuple[pathlib.Path, ...] = VERILOG
+    rest: str = ""
 
 
 def one(kind: str) -> Parts:
@@ -208,7 +210,7 @@ PUBLISHED_EXCHANGE = (("comparator", 0.5), ("exchange_bit", 32))
 # As modules/streaminggs/heap_ledger.h: keys of 256 bits, nodes of 522.
 HEAP_LEVEL = (
     ("register_bit", 256 + 522),
-    ("select_bit", 7 * 256 + (4 + 2 + 1) * 522),
+    ("heap_bit", 7 * 256 + (4 + 2 + 1) * 522),
     ("comparator", 4),
 )
 # The part whose energy is published: a multiplier and an adder. All others are so much of it.
@@ -292,7 +294,11 @@ MODULES = (
     Module("draining of a group", "drain", ()),
     # Of the sorting network, which has 80 of them: 64 bits of a key are compared.
     Module(
-        "compare-exchange of keys, place of 8 bits", "compare_exchange", EXCHANGE, sources=SORTING
+        "compare-exchange of keys, place of 8 bits",
+        "compare_exchange",
+        EXCHANGE,
+        sources=SORTING,
+        rest="exchange_bit",
     ),
     Module(
         "compare-exchange of 16 bits, 16 bits beside",
@@ -307,6 +313,7 @@ MODULES = (
         HEAP_LEVEL,
         parameters=parameters(LEVEL=4),
         sources=MERGE,
+        rest="heap_bit",
     ),
 )
 # Of cells alone: what the clock takes in a cycle, tree and wires with it.
@@ -358,7 +365,7 @@ NODE_COLUMNS = (
 NODE_ABOUT = (
     "Area at 32 nm: NAND2 equivalents by 0.40 um2, a NAND2 of NanGate's 45 nm library x (32/45)^2. "
     "Low: the least number, cells alone. High: the most, at 65 % of the area they stand in. "
-    "Middle: the geometric mean of all, at 75 %. "
+    "Middle: the geometric mean of those mapped to be fast, at 75 %. "
     "A FO4 at 32 nm is 11.5 ps, slow 16 ps; a register takes 5. "
     "Energy, settled and with glitches: the library's x 32 nm over its gates' length x the square "
     "of 0.9 V over its voltage. Operands are new and random in every cycle. No wires, no layout, "
@@ -498,29 +505,66 @@ def pj_of_gates(mapped: Sequence[Mapped], known: Sequence[Mapped]) -> list[float
 
 
 def um2_of_gates(mapped: Sequence[Mapped]) -> list[float]:
-    """Low, middle, high; 0 of what takes none."""
+    """Low, middle, high; 0 of what takes none. Small mappings are too slow for the middle."""
     nand2 = [each.nand2 for each in mapped]
     if not any(nand2):
         return [0.0] * len(BAND)
-    count = {"low": min(nand2), "middle": statistics.geometric_mean(nand2), "high": max(nand2)}
+    middle = statistics.geometric_mean(each.nand2 for each in mapped if each.mapping == "fast")
+    count = {"low": min(nand2), "middle": middle, "high": max(nand2)}
     return [count[of] * NAND2_UM2 / FILLED[of] for of in BAND]
+
+
+def alone(mapped: Sequence[Mapped]) -> dict[str, tuple[Sequence[Mapped], float]]:
+    """By part of the ledger, the first module that is charged as it alone, and how many it is."""
+    found: dict[str, tuple[Sequence[Mapped], float]] = {}
+    for module in dict.fromkeys(each.module for each in mapped):
+        if not isinstance(module.charged, str) and len(module.charged) == 1:
+            ((kind, times),) = module.charged
+            found.setdefault(kind, ([m for m in mapped if m.module == module], times))
+    return found
+
+
+def rest_of(
+    module: Module, mapped: Sequence[Mapped], parts: Mapping[str, tuple[Sequence[Mapped], float]]
+) -> list[Mapped]:
+    """What the module's other parts leave of it, in each library and mapping."""
+    rest = []
+    for each in (m for m in mapped if m.module == module):
+        for kind, count in module.charged:
+            if kind == module.rest:
+                continue
+            modules, times = parts[kind]
+            (part,) = (
+                m for m in modules if (m.library, m.mapping) == (each.library, each.mapping)
+            )
+            of = count / times
+            each = dataclasses.replace(
+                each,
+                nand2=each.nand2 - of * part.nand2,
+                register_bits=round(each.register_bits - of * part.register_bits),
+                pj=(each.pj[0] - of * part.pj[0], each.pj[1] - of * part.pj[1]),
+            )
+        rest.append(each)
+    return rest
 
 
 def constants(mapped: Sequence[Mapped]) -> dict[str, dict]:
     """Of the ledger, what gates say: mm2 and pj, low, middle, high, and register bits of each part
-    that a module is charged as; of several such modules the first."""
+    that a module is charged as, alone or as its rest."""
     known = [each for each in mapped if each.module.name == OF_KNOWN_ENERGY]
+    parts = alone(mapped)
+    rests = {
+        module.rest: (rest_of(module, mapped, parts), dict(module.charged)[module.rest])
+        for module in dict.fromkeys(each.module for each in mapped)
+        if module.rest
+    }
     found: dict[str, dict] = {}
-    for module in dict.fromkeys(each.module for each in mapped):
-        if isinstance(module.charged, str) or len(module.charged) != 1:
-            continue
-        ((kind, times),) = module.charged
-        of_module = [each for each in mapped if each.module == module]
+    for kind, (of_module, times) in {**parts, **rests}.items():
         mm2 = [um2 / times * 1e-6 for um2 in um2_of_gates(of_module)]
         pj = [energy / times for energy in pj_of_gates(of_module, known)]
         bits = of_module[0].register_bits / times
         of_part = {"mm2": dict(zip(BAND, mm2)), "pj": dict(zip(BAND, pj)), "register_bits": bits}
-        found.setdefault(kind, of_part)
+        found[kind] = of_part
     return found
 
 

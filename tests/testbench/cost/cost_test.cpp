@@ -348,7 +348,7 @@ TEST_CASE("cost: the shipped table says what its sources say") {
   CHECK(chaining.mm2.middle < technology.part("fp32_lane").mm2.middle);
   // A compare-exchange of 16 bits compared, 32 moved.
   const PartCost& compare = published.at("comparator");
-  const PartCost& bit = technology.part("exchange_bit");
+  const PartCost& bit = published.at("exchange_bit");
   CHECK(compare.mm2.middle / 2 + 32 * bit.mm2.middle == Approx(0.042 / 2 / 80).epsilon(1e-5));
   CHECK(compare.pj.middle / 2 + 32 * bit.pj.middle ==
         Approx(13.7 / 80 * 0.65 / 0.55).epsilon(1e-5));
