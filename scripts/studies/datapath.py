@@ -347,8 +347,8 @@ NODE_COLUMNS = (
     Column("NAND2, most", "likewise", "", ",.0f"),
     Column("FO4, least", "logic depth of the slowest stage, mapped to be fast", "", ".0f"),
     Column("FO4, most", "likewise", "", ".0f"),
-    Column("ns, least", "that and a register at 32 nm: least depth, typical", "ns", ".2f"),
-    Column("ns, most", "most depth, slow", "ns", ".2f"),
+    Column("ns, typical", "the most and a register at 32 nm", "ns", ".2f"),
+    Column("ns, slow", "likewise", "ns", ".2f"),
     *bands("um2", "at 32 nm, as the gates say", "um2", ",.0f"),
     Column("charged as", "parts of the ledger"),
     Column("charged um2", "their middle", "um2", ",.0f"),
@@ -366,7 +366,7 @@ NODE_ABOUT = (
     "Area at 32 nm: NAND2 equivalents by 0.40 um2, a NAND2 of NanGate's 45 nm library x (32/45)^2. "
     "Low: the least number, cells alone. High: the most, at 65 % of the area they stand in. "
     "Middle: the geometric mean of those mapped to be fast, at 75 %. "
-    "A FO4 at 32 nm is 11.5 ps, slow 16 ps; a register takes 5. "
+    "Time: the most depth; a FO4 at 32 nm is 11.5 ps, slow 16 ps; a register takes 5. "
     "Energy, settled and with glitches: the library's x 32 nm over its gates' length x the square "
     "of 0.9 V over its voltage. Operands are new and random in every cycle. No wires, no layout, "
     "no clock. pJ, low to high: the published energy of a multiplication and an addition times "
@@ -585,10 +585,7 @@ def node_row(
     and their operations in a cycle."""
     nand2 = [each.nand2 for each in mapped]
     depth = [each.fo4 for each in mapped if each.mapping == "fast"]
-    times = [
-        (fo4 + REGISTER_FO4) * ps_nm * NODE_NM / 1e3
-        for fo4, ps_nm in zip((min(depth), max(depth)), FO4_PS_NM)
-    ]
+    times = [(max(depth) + REGISTER_FO4) * ps_nm * NODE_NM / 1e3 for ps_nm in FO4_PS_NM]
     parts, operations = charged
 
     def published(unit: str, factor: float) -> list[float | None]:
