@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "algorithm/splat/blend.h"
+#include "algorithm/splat/group_numbers.h"
 
 namespace sgs {
 
@@ -72,12 +73,10 @@ void GroupState::store(const glm::vec3& background, RenderResult& frame) const {
 }
 
 std::vector<PixelRect> pixel_groups(int width_px, int height_px, const PixelSize& group) {
+  const PixelSize frame{width_px, height_px};
   std::vector<PixelRect> groups;
-  for (int y = 0; y < height_px; y += group.height) {
-    for (int x = 0; x < width_px; x += group.width) {
-      groups.push_back(
-          {x, y, std::min(x + group.width, width_px), std::min(y + group.height, height_px)});
-    }
+  for (GroupPlaceOf<int> at; at.y < height_px; at = group_behind(at, group, frame)) {
+    groups.push_back(group_at(at, group, frame));
   }
   return groups;
 }

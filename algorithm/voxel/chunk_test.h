@@ -30,6 +30,7 @@
 
 #include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/footprint.h"
+#include "algorithm/splat/group_numbers.h"
 #include "algorithm/splat/view.h"
 #include "algorithm/voxel/chunk_tree.h"
 
@@ -46,7 +47,11 @@ using ChunkTest = ChunkTestOf<float>;
 template <class T>
 class GroupFrustumOf {
  public:
-  GroupFrustumOf(const View<T>& view, const PixelRect& pixels) : view_(view), pixels_(pixels) {}
+  GroupFrustumOf(const View<T>& view, const PixelRect& pixels)
+      : view_(view),
+        pixels_(pixels),
+        outer_(outer_pixels<T>({pixels.x0, pixels.y0, pixels.x1, pixels.y1})),
+        from_middle_(from_middle(outer_, view.centre_x, view.centre_y)) {}
 
   ChunkTestOf<T> test(const ChunkBoundOf<T>& bound) const;
   // The same, for a walk that asks for no depth and no sub-tiles.
@@ -69,11 +74,13 @@ class GroupFrustumOf {
   static Interval clamped(Interval ratio, T limit);
   static T reach_along(const Vec& axis, const Vec& axis_z, Interval range, const Vec& extent);
   // One side of the group: a point passes when direction . v >= 0 in the camera frame.
-  bool beyond_side(const Vec& centre, const Vec& half, int axis, T sign, T edge_px, T padding_px,
-                   T reach, T rounding) const;
+  // from_middle_px: from the view's middle to the side, outward.
+  bool beyond_side(const Vec& centre, const Vec& half, int axis, T sign, T from_middle_px,
+                   T padding_px, T reach, T rounding) const;
 
   const View<T>& view_;
   PixelRect pixels_;
+  GroupSides<T> outer_, from_middle_;
 };
 using GroupFrustum = GroupFrustumOf<float>;
 
@@ -109,13 +116,12 @@ typename GroupFrustumOf<T>::Interval GroupFrustumOf<T>::clamped(Interval ratio, 
 }
 
 template <class T>
-bool GroupFrustumOf<T>::beyond_side(const Vec& centre, const Vec& half, int axis, T sign, T edge_px,
-                                    T padding_px, T reach, T rounding) const {
+bool GroupFrustumOf<T>::beyond_side(const Vec& centre, const Vec& half, int axis, T sign,
+                                    T from_middle_px, T padding_px, T reach, T rounding) const {
   using std::abs;
   using std::isfinite;
   const T focal = axis == 0 ? view_.focal_x : view_.focal_y;
-  const T middle = axis == 0 ? view_.centre_x : view_.centre_y;
-  const T slope = sign * (middle - edge_px) + padding_px;
+  const T slope = from_middle_px + padding_px;
   T most = T(0.0F);
   for (int a = 0; a < 3; ++a) {
     const T n = sign * focal * view_.cam_from_world[axis][a] + slope * view_.cam_from_world[2][a];
@@ -182,12 +188,11 @@ typename GroupFrustumOf<T>::Compared GroupFrustumOf<T>::compared(
     // sqrt(0.3 + sqrt(0.1))
     padding_px = constant<T>(kRadiusSigmas) * T(0.7851F) + one + constant<T>(kTilePx);
   }
-  const auto px = [](int at) { return T(static_cast<float>(at)); };
-  const bool outside =
-      beyond_side(centre, half, 0, one, px(pixels_.x0), padding_px, reach_x, far_sum) ||
-      beyond_side(centre, half, 0, -one, px(pixels_.x1 - 1), padding_px, reach_x, far_sum) ||
-      beyond_side(centre, half, 1, one, px(pixels_.y0), padding_px, reach_y, far_sum) ||
-      beyond_side(centre, half, 1, -one, px(pixels_.y1 - 1), padding_px, reach_y, far_sum);
+  const GroupSides<T>& to = from_middle_;
+  const bool outside = beyond_side(centre, half, 0, one, to.left, padding_px, reach_x, far_sum) ||
+                       beyond_side(centre, half, 0, -one, to.right, padding_px, reach_x, far_sum) ||
+                       beyond_side(centre, half, 1, one, to.top, padding_px, reach_y, far_sum) ||
+                       beyond_side(centre, half, 1, -one, to.bottom, padding_px, reach_y, far_sum);
   return {!outside, z, x_ratio, y_ratio, reach_x, reach_y, padding_px};
 }
 
@@ -196,10 +201,9 @@ ChunkTestOf<T> GroupFrustumOf<T>::test(const ChunkBoundOf<T>& bound) const {
   const Compared seen = compared(bound);
   if (!seen.touches) return {false, seen.z.low, {}};
   using std::ceil, std::floor;
-  const auto px = [](int at) { return T(static_cast<float>(at)); };
-  const auto subtiles = [&](T middle, T axis_focal, Interval ratio, T reach, int begin, int end) {
+  const auto subtiles = [&](T middle, T axis_focal, Interval ratio, T reach, T left, T right,
+                            int begin) {
     const T around = axis_focal * reach / seen.z.low + seen.padding_px;
-    const T left = px(begin), right = px(end - 1);
     // A value that is not a number leaves the group's own edge.
     const T first =
         max_of(left, min_of(T(ceil(T(middle + axis_focal * ratio.low - around))), right));
@@ -207,10 +211,10 @@ ChunkTestOf<T> GroupFrustumOf<T>::test(const ChunkBoundOf<T>& bound) const {
         min_of(right, max_of(T(floor(T(middle + axis_focal * ratio.high + around))), left));
     return std::array<std::uint8_t, 2>{subtile_of(first, begin), subtile_of(last, begin)};
   };
-  const auto [x0, x1] =
-      subtiles(view_.centre_x, view_.focal_x, seen.x_ratio, seen.reach_x, pixels_.x0, pixels_.x1);
-  const auto [y0, y1] =
-      subtiles(view_.centre_y, view_.focal_y, seen.y_ratio, seen.reach_y, pixels_.y0, pixels_.y1);
+  const auto [x0, x1] = subtiles(view_.centre_x, view_.focal_x, seen.x_ratio, seen.reach_x,
+                                 outer_.left, outer_.right, pixels_.x0);
+  const auto [y0, y1] = subtiles(view_.centre_y, view_.focal_y, seen.y_ratio, seen.reach_y,
+                                 outer_.top, outer_.bottom, pixels_.y0);
   return {true, seen.z.low, {x0, y0, x1, y1}};
 }
 

@@ -70,7 +70,7 @@ TEST_CASE("refusals: a pipeline shorter than its schedule, a loop longer than it
                                           {"exact", "vsu.test_depth_cycles", 191},
                                           {"paper_no_vq", "vsu.step_depth_cycles", 43},
                                           {"paper_no_vq", "vsu.cell_step_depth_cycles", 12},
-                                          {"paper_no_vq", "vsu.ray_depth_cycles", 82}}) {
+                                          {"paper_no_vq", "vsu.ray_depth_cycles", 86}}) {
     const auto set = [key = key](int depth) { return key + ("=" + std::to_string(depth)); };
     check_set_refused(
         order, {set(least - 1)},

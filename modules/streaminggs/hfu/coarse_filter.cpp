@@ -20,6 +20,9 @@ CoarseFilter::CoarseFilter(const sc_core::sc_module_name& name, const HfuConfig&
                                           context.built_for.single),
                           static_cast<std::uint32_t>(context.job.parts.size()))),
       has_cfus_(has_cfus(config, context.job.layout.split.bound_by)),
+      numbers_{GroupNumbersInTurn(
+          group_numbers(group_flow(GroupUse::kFilter, parts_across(context.job.parts.size())),
+                        context.built_for.single))},
       job_(context.job),
       record_bytes_(job_.layout.first_halves.record_bytes),
       load_("load", context.clock),
@@ -38,6 +41,7 @@ void CoarseFilter::run_load() {
   while (true) {
     VisitShare share = shares->pop(load_);
     take_up_group(load_, memory, share.group, share.visit);
+    const std::uint64_t known = load_.clock().now_cycles() + 1;
     if (share.count > 0 && all_finished(finished, share.group)) {
       counters_.dropped_saturated += share.count;
       share.count = 0;
@@ -47,6 +51,7 @@ void CoarseFilter::run_load() {
       Slice slice;
       slice.share = share;
       slice.share.count = std::min(end - share.first, config_.slice_gaussians);
+      slice.known = known;
       slice.slot = free_slots_.pop(load_, WaitFor::kRoom);
       load_.work(1);
       if (slice.share.count > 0) {
@@ -72,6 +77,7 @@ void CoarseFilter::run_filter() {
     filter_.takes_up_group(current_group_, current_visit_);
     if (slice.share.count > 0) {
       await(memory, filter_, slice.ticket);
+      if (has_cfus_) wait_for_numbers(slice);
       filter_slice(slice);
     }
     free_slots_.push(slice.slot, filter_);
@@ -87,6 +93,17 @@ void CoarseFilter::run_filter() {
       in_turn(survivors, end.visit).push(end, filter_);
     }
   }
+}
+
+// Made as soon as the group is known, and no test takes the numbers that were there before.
+void CoarseFilter::wait_for_numbers(const Slice& slice) {
+  if (numbers_.group != slice.share.group) {
+    numbers_.group = slice.share.group;
+    numbers_.set = 1 - numbers_.set;
+    numbers_.stand = numbers_.in_turn.stand(std::max(slice.known, numbers_.left[numbers_.set]));
+  }
+  const std::uint64_t now = filter_.clock().now_cycles();
+  filter_.work(std::max(now, numbers_.stand) - now);
 }
 
 std::byte* CoarseFilter::first_half(std::uint32_t slot, std::uint32_t at) {
@@ -121,6 +138,7 @@ void CoarseFilter::filter_slice(const Slice& slice) {
       cycle = passed = filter_.clock().now_cycles();
     }
     cycle = next_turn_of_one(cycle, of_test, cfus) + 1;
+    numbers_.left[numbers_.set] = cycle + config_.cfu_depth_cycles;
     ++counters_.read;
     const SplitFirstHalf first = read_first_half(split, first_half(slice.slot, i));
     const FirstHalfBound bound = bound_first_half(split, first, job_.view);
@@ -192,7 +210,10 @@ void CoarseFilter::publish(DataSheet& sheet) {
   sheet.activity(load_, "load", "fetches first halves into the input buffer");
   sheet.activity(filter_, "coarse", "puts them through the CFUs");
   sheet.counters(counters_);
-  if (has_cfus_) sheet.datapath(tests_, counters_.read);
+  if (has_cfus_) {
+    sheet.datapath(tests_, counters_.read);
+    numbers_.in_turn.publish(sheet, "coarse");
+  }
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated, "filtering and second halves");
   sheet.port(memory);

@@ -2,7 +2,8 @@
 // the CFUs, which know only what stands in a first half. With a shared fetch the CFUs of all HFUs
 // divide the Gaussians among themselves; a CFU bounds one once and compares the bound with every
 // part of the group. Timing: a Gaussian in each CFU at a time; the next slices are fetched while
-// this one is filtered. Function: algorithm/memory/record_split.h.
+// this one is filtered, and the numbers of the next group are made. Function:
+// algorithm/memory/record_split.h.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "algorithm/memory/record_split.h"
+#include "modules/datapath/group_numbers.h"
 #include "modules/datapath/places_under_test.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/hfu/hfu_config.h"
@@ -57,11 +59,21 @@ class CoarseFilter : public sc_core::sc_module {
     static constexpr std::uint32_t kSramBytes = VisitShare::kSramBytes;  // slots are used in turn
     VisitShare share;  // mark: only with the last slice of a share
     std::uint64_t ticket = 0;
-    std::uint32_t slot = 0;  // slot of the input buffer
+    std::uint32_t slot = 0;   // slot of the input buffer
+    std::uint64_t known = 0;  // cycle from which on its group is known here
+  };
+  // Numbers of the group that is filtered and of the one before, whose tests may be under way.
+  struct Numbers {
+    GroupNumbersInTurn in_turn;
+    std::uint32_t group = ~std::uint32_t{0};
+    std::uint64_t stand = 0;     // from this cycle on
+    std::uint64_t left[2] = {};  // [set] when the last test that takes it has left the pipeline
+    std::uint32_t set = 0;
   };
 
   void run_load();    // thread: first halves into the input buffer
   void run_filter();  // thread: CFUs
+  void wait_for_numbers(const Slice& slice);
   void filter_slice(const Slice& slice);
   PlacesUnderTest& places_of(std::uint32_t visit) { return places_[visit % places_.size()]; }
   std::uint32_t test(const FirstHalfBound& bound, std::uint32_t group, std::uint32_t open);
@@ -74,6 +86,7 @@ class CoarseFilter : public sc_core::sc_module {
   const BuiltFor built_for_;
   const Datapath tests_;
   const bool has_cfus_;
+  Numbers numbers_;
   const StreamingJob& job_;
   const std::uint32_t record_bytes_;
   Activity load_, filter_;

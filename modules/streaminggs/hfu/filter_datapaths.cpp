@@ -12,10 +12,6 @@
 namespace sgs {
 namespace {
 
-std::uint32_t across(std::uint32_t parts) {
-  return static_cast<std::uint32_t>(std::lround(std::sqrt(parts)));
-}
-
 // The configuration for records of another degree, where tests cost what is counted.
 HfuConfig for_record(HfuConfig config, const FineRecord& record) {
   if (config.cost == FilterCost::kCounted) {
@@ -26,8 +22,12 @@ HfuConfig for_record(HfuConfig config, const FineRecord& record) {
 
 }  // namespace
 
+std::uint32_t parts_across(std::size_t parts) {
+  return static_cast<std::uint32_t>(std::lround(std::sqrt(parts)));
+}
+
 Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by, std::uint32_t parts) {
-  OperationCounts in_parts = coarse_flow(bound_by, longest_case(), across(parts)).counts();
+  OperationCounts in_parts = coarse_flow(bound_by, longest_case(), parts_across(parts)).counts();
   if (bound_by == CoarseBoundBy::kExtents) in_parts.look_ups += kExtentLookUps;
   const std::uint32_t whole = folded_macs(coarse_flow(bound_by, longest_case()).counts());
   Datapath path = counted_datapath("coarse", "coarse", in_parts);
@@ -50,7 +50,7 @@ Datapath fine_datapath(const HfuConfig& config, const FineRecord& record) {
 Datapath coarse_pipeline(const HfuConfig& config, CoarseBoundBy bound_by, std::uint32_t parts,
                          const OperationLatencies& latencies) {
   Datapath path = coarse_datapath(config, bound_by, parts);
-  const auto steps = coarse_flow(bound_by, longest_case(), across(parts)).steps(latencies);
+  const auto steps = coarse_flow(bound_by, longest_case(), parts_across(parts)).steps(latencies);
   schedule(path, steps, latencies);
   set_by_group(path, steps);
   return path;

@@ -1,6 +1,7 @@
 // The lanes of the coarse and of the fine filter of one HFU, and the operations of a test on them.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "algorithm/memory/record_split.h"
@@ -16,6 +17,9 @@ namespace sgs {
 inline bool has_cfus(const HfuConfig& config, CoarseBoundBy bound_by) {
   return config.coarse_filter || bound_by == CoarseBoundBy::kExtents;
 }
+
+// Columns, and rows, of so many parts.
+std::uint32_t parts_across(std::size_t parts);
 
 // parts: of a group that one test tells apart, a square number. cfu_macs are of a group in one.
 Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by, std::uint32_t parts);

@@ -26,6 +26,7 @@ ExactVsu::ExactVsu(const sc_core::sc_module_name& name, const ExactVsuConfig& co
       nodes_(config.nodes_in_flight, job_.layout.chunk_table().nodes),
       tester_(context.clock, chunk_test_pipeline(config, context.built_for.single),
               config.nodes_in_test, config.test_depth_cycles),
+      numbers_in_turn_(group_numbers(group_flow(GroupUse::kWalk), context.built_for.single)),
       aside_(memory, walk_, aside),
       chunk_walk_(job_.view, aside_, config.walk_room()),
       ready_("ready", context.clock, kReadyVisits),
@@ -41,6 +42,7 @@ ExactVsu::ExactVsu(const sc_core::sc_module_name& name, const ExactVsuConfig& co
 }
 
 void ExactVsu::run_walk() {
+  for (std::uint32_t group = 0; group < numbers_stand_.size(); ++group) make_numbers(group, 0);
   load_upper_nodes();
   while (group_ < job_.groups.size()) {
     take_up_group(walk_, memory, group_);
@@ -68,9 +70,23 @@ bool ExactVsu::step() {
   return begin_group() || read_node() || give_chunk() || enter_children() || test_node();
 }
 
+// from: the cycle from which on the registers of its numbers are free.
+void ExactVsu::make_numbers(std::uint32_t group, std::uint64_t from) {
+  if (group >= job_.groups.size()) return;
+  numbers_stand_[group % numbers_stand_.size()] = numbers_in_turn_.stand(from);
+}
+
+// Once its numbers stand.
+bool ExactVsu::may_begin_group() const {
+  return next_group_ < job_.groups.size() &&
+         (chunk_walk_.begun() == 0 || chunk_walk_.has_read_ahead());
+}
+
 bool ExactVsu::begin_group() {
-  if (next_group_ == job_.groups.size()) return false;
-  if (chunk_walk_.begun() > 0 && !chunk_walk_.has_read_ahead()) return false;
+  if (!may_begin_group()) return false;
+  if (walk_.clock().now_cycles() < numbers_stand_[next_group_ % numbers_stand_.size()]) {
+    return false;
+  }
   chunk_walk_.begin(job_.groups[next_group_], job_.layout.chunk_table().nodes.count == 0);
   ++next_group_;
   work_on_queues(1);
@@ -172,6 +188,7 @@ void ExactVsu::end_group(bool saturated) {
   held_.reset();
   any_chunk_ = false;
   chunk_walk_.end();
+  make_numbers(group_ + ChunkWalk<WalkAside>::kWalks, walk_.clock().now_cycles() + 1);
   ready_.push({group_, 0, 0, 0, Mark::kEndOfGroup, kInfinity}, walk_);
   --room_;
   ++group_;
@@ -200,6 +217,8 @@ void ExactVsu::say_what_is_missing() {
   const bool could_read = chunk_walk_.has_node() && !nodes_.full();
   if (room_ == 0) {
     walk_.waits_for(WaitFor::kRoom, ready_);
+  } else if (chunk_walk_.begun() == 0) {
+    walk_.waits_for(WaitFor::kInput, numbers_);
   } else if (could_read && !chunk_walk_.chunks_have_room()) {
     walk_.waits_for(WaitFor::kRoom, chunk_room_);
   } else if (could_read && !chunk_walk_.nodes_have_room()) {
@@ -222,6 +241,10 @@ void ExactVsu::wait_for_news() {
   if (nodes_.any_arrived() && !tester_.full()) may_come(nodes_.ready_at());
   if (!taken_.empty()) may_come(taken_.ready_at());
   if (tester_.any_tested()) may_come(tester_.ready_at());
+  if (may_begin_group()) {
+    may_come(static_cast<double>(numbers_stand_[next_group_ % numbers_stand_.size()]) *
+             walk_.clock().period());
+  }
   if (first) {
     sc_core::wait(*first - sc_core::sc_time_stamp(), news_);
   } else {

@@ -2,13 +2,16 @@
 // back. It hands out the chunks that can touch the group, each with the depth below which nothing
 // follows. Nodes are read ahead, several at a time, as long as their children are sure to fit the
 // queues; when a group's nodes have all been read the next group's walk begins. A node or chunk
-// that reaches finished sub-tiles only is left out when it is taken from its queue.
+// that reaches finished sub-tiles only is left out when it is taken from its queue. The numbers of
+// a group are made when the registers of the group before the last are free, and its walk waits for
+// them.
 // Timing: a node's children pass the tests' lanes and come out of their pipeline test_depth_cycles
 // later, nodes_in_test nodes at a time, while the walk goes on. Each operation of a queue takes
 // cycles_per_queue_operation; a visit leaves a cycle.
 // Function: algorithm/order/chunk_walk.h.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <systemc>
@@ -17,6 +20,7 @@
 #include "algorithm/order/chunk_walk.h"
 #include "modules/chunks/chunk_tester.h"
 #include "modules/chunks/node_buffer.h"
+#include "modules/datapath/group_numbers.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/finished_subtiles.h"
 #include "modules/streaminggs/messages.h"
@@ -65,10 +69,10 @@ class ExactVsu : public sc_core::sc_module {
   void publish(DataSheet& sheet);
 
  private:
-  // Place at which the walk waits for room in one of its queues.
-  struct QueueRoom : sc_core::sc_object {
-    explicit QueueRoom(const char* name) : sc_object(name) {}
-    const char* kind() const override { return "sgs::QueueRoom"; }
+  // Place at which the walk waits: for room in one of its queues, for numbers of a group.
+  struct WalkPlace : sc_core::sc_object {
+    explicit WalkPlace(const char* name) : sc_object(name) {}
+    const char* kind() const override { return "sgs::WalkPlace"; }
   };
 
   void run_walk();      // thread: queues
@@ -77,6 +81,7 @@ class ExactVsu : public sc_core::sc_module {
   void run_hand_out();  // thread: visits to the HFUs
   void load_upper_nodes();
   bool step();
+  bool may_begin_group() const;
   bool begin_group();
   bool read_node();
   bool give_chunk();
@@ -85,6 +90,7 @@ class ExactVsu : public sc_core::sc_module {
   bool test_node();
   void drop(std::size_t nodes) { counters_.nodes_dropped += nodes; }
   void give(const WalkEntry& chunk, float release_below);
+  void make_numbers(std::uint32_t group, std::uint64_t from);
   void end_group(bool saturated);
   void mark_saturated(std::uint32_t group);
   void say_what_is_missing();
@@ -98,7 +104,11 @@ class ExactVsu : public sc_core::sc_module {
   std::vector<ChunkNode> upper_;  // the tree's first nodes
   NodeBuffer<WalkEntry> nodes_;
   ChunkTester<WalkEntry> tester_;
-  const QueueRoom node_room_{"node_queue"}, chunk_room_{"chunk_queue"};
+  const WalkPlace node_room_{"node_queue"}, chunk_room_{"chunk_queue"};
+  const WalkPlace numbers_{"group_numbers"};
+  GroupNumbersInTurn numbers_in_turn_;
+  // [group modulo the walks under way] from this cycle on its numbers stand
+  std::array<std::uint64_t, ChunkWalk<WalkAside>::kWalks> numbers_stand_{};
   WalkAside aside_;  // entries that the queues have no room for
   ChunkWalk<WalkAside> chunk_walk_;
   TimedFifo<VisitShare> ready_;         // final visits

@@ -66,6 +66,7 @@ void ExactVsu::publish(DataSheet& sheet) {
   sheet.counter("queue_entries_put_aside", "entries", "that went to DRAM: the queue was full",
                 walk.put_aside);
   sheet.datapath(tester_.lanes(), tester_.tests());
+  numbers_in_turn_.publish(sheet, "vsu");
   sheet.left_out("saturated_groups", "every pixel was finished before the walk ended",
                  counters_.groups_saturated, "the rest of the tree is not walked");
   sheet.left_out("hidden_nodes", "all sub-tiles that they reach were finished",

@@ -17,6 +17,9 @@ namespace {
 // count.
 constexpr std::uint32_t kOpenPieces = 32, kPieceBytes = 8;
 
+// Registers for the pixels of the group whose rays are followed, and of the next.
+constexpr std::uint32_t kGroupBits = 4 * 16;
+
 }  // namespace
 
 PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& config,
@@ -33,6 +36,7 @@ PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& co
       cuts_(config.cut_cache_bytes, job_.layout.voxel_table().cuts),
       table_(job_.layout.voxel_table().voxels.count, config.table_bytes,
              config.line_destinations()),
+      numbers_in_turn_(group_numbers(group_flow(GroupUse::kRays), context.built_for.single)),
       ordered_("ordered", context.clock, config.groups_ahead) {
   SC_THREAD(run_traverse);
   SC_THREAD(run_emit);
@@ -54,10 +58,14 @@ ListsOut PaperVsu::lists() {
 
 void PaperVsu::run_traverse() {
   const ClockDomain& clock = traverse_.clock();
+  std::uint64_t has_registers = 0;  // from this cycle on
   for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
     current_group_ = group;
     take_up_group(traverse_, node_memory, group);
+    const std::uint64_t now = clock.now_cycles();
+    traverse_.work(std::max(now, numbers_in_turn_.stand(has_registers)) - now);
     const std::uint64_t from = clock.now_cycles();
+    has_registers = from + 1;
     const GroupVisits visits = order_group(job_.groups[group]);
     const std::uint64_t cycles = clock.now_cycles() - from;
     (visits.overflows > 0 ? cycles_of_full_tables_ : cycles_of_others_) += cycles;
@@ -183,6 +191,10 @@ void PaperVsu::publish(DataSheet& sheet) {
   if (rays_) sheet.counter("node_cache_misses", "nodes", "read from DRAM", rays_->nodes.misses());
   sheet.counter("cut_cache_misses", "planes", "of cut voxels read from DRAM", cuts_.misses());
   sheet.counter("record_cache_misses", "voxel records", "read from DRAM", records_.misses());
+  numbers_in_turn_.publish(sheet, "vsu");
+  sheet.part("vsu", "register_bit", 2.0 * kGroupBits, 1);
+  sheet.operations("vsu", "register_bit",
+                   double{kGroupBits} * static_cast<double>(numbers_in_turn_.groups()));
   samples_ ? samples_->publish(sheet) : rays_->publish(sheet);
   records_.publish_accesses(sheet, "record cache", "record cache tags");
   cuts_.publish_accesses(sheet, "cut cache", "cut cache tags");

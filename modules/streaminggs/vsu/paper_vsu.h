@@ -1,6 +1,7 @@
 // Voxel sorting unit (VSU), paper order. For each pixel group it follows the pixels' rays through
 // the voxel tree, or samples them, and orders the voxels that they meet. Each voxel is handed out
 // as a visit to the HFUs; one with more Gaussians than a list holds in pieces, the nearest first.
+// The next group's pixels are found meanwhile.
 // Timing: rays_in_flight.h, ray_unit.h, sampled_rays.h; one cycle a visit and a cut; table misses
 // wait for DRAM.
 // Function: algorithm/order/group_visits.h, algorithm/voxel/voxel_grid.h.
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "algorithm/order/group_visits.h"
+#include "modules/datapath/group_numbers.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/messages.h"
 #include "modules/streaminggs/unit_context.h"
@@ -83,6 +85,7 @@ class PaperVsu : public sc_core::sc_module {
   TableCache<VoxelRecord> records_;
   TableCache<float> cuts_;
   OrderingTable table_;
+  GroupNumbersInTurn numbers_in_turn_;
   TimedFifo<OrderedPass> ordered_;
   Counters counters_;
   std::uint64_t cycles_of_full_tables_ = 0, cycles_of_others_ = 0;  // cycles of groups

@@ -48,6 +48,15 @@ SampleSpaceOf<Counting> diagonal_space(DataFlow& flow) {
   return space;
 }
 
+// One coordinate of a ray's pixel as a number, and that of the next ray beside: next_ray()
+// (algorithm/order/group_visits.h) with a step and the group's last pixel.
+Counting pixel_of_ray(CountingIndex at) {
+  constexpr int kStep = 2, kLast = 47;
+  static_cast<void>(at < kLast);
+  keep(*at.flow, {min_of<CountingIndex>(at + kStep, kLast)});
+  return number_of<Counting>(at);
+}
+
 Datapath pipeline(const char* name, const FlowPart& flow, std::uint32_t lanes,
                   const OperationLatencies& latencies) {
   Datapath path = counted_datapath(name, "vsu", flow.counts());
@@ -89,14 +98,14 @@ FlowPart pixel_ray_flow() {
   const Counting voxel_size = input(flow, kTwoLevels.voxel_size);
   // Looks along the diagonal of the root, which begins at 0.
   const View<Counting> view = diagonal_view(flow);
-  const Counting x = input(flow, 33), y = input(flow, 22);
+  const CountingIndex x = input_index(flow, 33), y = input_index(flow, 22);
   // The eye's cell is found once a frame, and so is the reciprocal of the voxel size.
   for (int axis = 0; axis < 3; ++axis) {
     static_cast<void>(number_of<Counting>(cell_of(view.position[axis], voxel_size) + 0));
   }
   const std::size_t from = flow.size();
   RayPath<Counting> path(kTwoLevels, voxel_size);
-  path.begin(pixel_ray_of(view, x, y));
+  path.begin(pixel_ray_of(view, pixel_of_ray(x), pixel_of_ray(y)));
   return {recorded, from, flow.size(), {}};
 }
 
@@ -104,10 +113,10 @@ FlowPart sampled_ray_flow() {
   const auto recorded = std::make_shared<DataFlow>();
   DataFlow& flow = *recorded;
   const View<Counting> view = diagonal_view(flow);
-  const Counting x = input(flow, 33), y = input(flow, 22);
+  const CountingIndex x = input_index(flow, 33), y = input_index(flow, 22);
   CellSamples<Counting> samples(diagonal_space(flow));
   const std::size_t from = flow.size();
-  samples.begin(pixel_direction(view, x, y));
+  samples.begin(pixel_direction(view, pixel_of_ray(x), pixel_of_ray(y)));
   return {recorded, from, flow.size(), {}};
 }
 

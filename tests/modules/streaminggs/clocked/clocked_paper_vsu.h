@@ -15,6 +15,7 @@
 #include "algorithm/memory/scene_layout.h"
 #include "algorithm/voxel/voxel_grid.h"
 #include "tests/modules/clocked/clocked_fifo.h"
+#include "tests/modules/clocked/clocked_group_numbers.h"
 #include "tests/modules/streaminggs/clocked/clocked_rays.h"
 #include "tests/modules/streaminggs/clocked/clocked_sampling.h"
 
@@ -27,6 +28,7 @@ struct PaperVsuHardware {
   std::uint32_t lists = 1;          // that wait
   std::uint32_t record_cache_bytes = 1024, cut_cache_bytes = 256;
   std::uint32_t visit_gaussians = 256, min_share = 16;
+  GroupNumbersHardware numbers = {};
 };
 
 // What is handed out.
@@ -49,16 +51,20 @@ class ClockedPaperVsu {
         layout_(layout),
         groups_(groups),
         rays_(rays),
+        numbers_(hw_.numbers),
         port_(hw_.rays.port),
         table_(table),
         ordered_(hw_.lists),
         records_(hw_.record_cache_bytes),
-        cuts_(hw_.cut_cache_bytes) {}
+        cuts_(hw_.cut_cache_bytes) {
+    for (std::size_t group = 0; group < groups.size(); ++group) numbers_.ask();
+  }
 
   // shares: one FIFO a fetch. finished: of a group, whether the news has come.
   template <class Finished>
   void step(std::vector<ClockedFifo<std::uint64_t>>& shares, const Finished& finished) {
     port_.begin_cycle();
+    numbers_.step([&](std::uint32_t group) { return group <= followed_; });
     emit(shares, finished);
     traverse();
     ordered_.step();
@@ -91,6 +97,8 @@ class ClockedPaperVsu {
     }
     if (group_ == groups_.size()) return;
     if (doing_ == Pass::kBegin) {
+      if (!numbers_.stand(static_cast<std::uint32_t>(group_))) return;
+      followed_ = group_ + 1;
       table_.clear();
       rays_.begin(groups_[group_], window_);
       doing_ = Pass::kFollow;
@@ -242,7 +250,9 @@ class ClockedPaperVsu {
   const VoxelTableLayout& layout_;
   const std::vector<PixelRect>& groups_;
   Rays rays_;
-  ClockedPort port_;  // of records and planes
+  ClockedGroupNumbers numbers_;
+  std::size_t followed_ = 0;  // groups whose rays have begun
+  ClockedPort port_;          // of records and planes
   ClockedTransfer line_;
   Table table_;
   Pass doing_ = Pass::kBegin;

@@ -1,6 +1,7 @@
 // VSU of exact order register by register: the control of the walk, busy while a queue's heap is;
 // nodes on their way from memory; the lanes of the chunk test, a child in each of their turns, and
 // the pipeline behind them; the FIFO of final visits with its credits, and what hands them out.
+// The numbers of a group are made in the registers of a walk that has ended.
 // Which node and chunk comes next is the walk's own (algorithm/order/chunk_walk.h).
 #pragma once
 
@@ -15,6 +16,7 @@
 #include "algorithm/order/chunk_walk.h"
 #include "tests/modules/clocked/clocked_chunk_tests.h"
 #include "tests/modules/clocked/clocked_fifo.h"
+#include "tests/modules/clocked/clocked_group_numbers.h"
 #include "tests/modules/clocked/clocked_port.h"
 #include "tests/modules/clocked/surroundings.h"
 
@@ -25,6 +27,7 @@ struct WalkHardware {
   ChunkTestHardware tests;
   std::uint32_t operation_cycles = 3;  // of a queue
   std::uint32_t queue_entries = 512, node_queue_entries = 256;
+  GroupNumbersHardware numbers = {};
   PortHardware port = {};
 };
 
@@ -42,15 +45,18 @@ class ClockedWalk {
         places_(places),
         groups_(groups),
         finishing_(finishing),
+        numbers_(hardware.numbers),
         tests_(hardware.tests, nodes),
         walk_(view, aside_, {hw_.node_queue_entries, hw_.queue_entries}) {
     const std::uint64_t upper = std::min<std::uint64_t>(hw_.upper_nodes, nodes.size());
     upper_ = {places.base, upper * places.record_bytes};
+    for (std::size_t group = 0; group < groups.size(); ++group) numbers_.ask();
   }
 
   // visits: one FIFO a HFU, taken in turn.
   void step(std::vector<ClockedFifo<std::uint64_t>>& visits) {
     port_.begin_cycle();
+    numbers_.step([&](std::uint32_t group) { return group < group_ + 2; });
     hand_out(visits);
     room_ += credits_;
     credits_ = std::exchange(new_credits_, 0);
@@ -119,6 +125,7 @@ class ClockedWalk {
   bool begin_group() {
     if (next_group_ == groups_.size()) return false;
     if (walk_.begun() > 0 && !walk_.has_read_ahead()) return false;
+    if (!numbers_.stand(static_cast<std::uint32_t>(next_group_))) return false;
     walk_.begin(groups_[next_group_++], nodes_.empty());
     take_time(1);
     return true;
@@ -219,6 +226,7 @@ class ClockedWalk {
   const RecordArray& places_;
   const std::vector<PixelRect>& groups_;
   const Finishing finishing_;
+  ClockedGroupNumbers numbers_;
   ClockedChunkTests<WalkEntry> tests_;
   Aside aside_;
   ChunkWalk<Aside> walk_;

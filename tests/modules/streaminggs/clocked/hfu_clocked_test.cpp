@@ -10,6 +10,7 @@
 #include "tests/modules/clocked/comparison.h"
 #include "tests/modules/streaminggs/clocked/clocked_coarse_filter.h"
 #include "tests/modules/streaminggs/clocked/clocked_fine_filter.h"
+#include "tests/modules/streaminggs/clocked/group_numbers_hardware.h"
 #include "tests/modules/streaminggs/clocked/hfu_workloads.h"
 
 namespace sgs::test {
@@ -23,6 +24,7 @@ struct CoarseWorkload {
   CoarseHardware hardware;
   PixelSize group = preset_of<ExactConfig>("exact").group;
   std::uint64_t apart = 0;  // cycles, behind news that the unit sees late
+  std::size_t visits = 20;  // of a group
 };
 
 tb::HfuPlan coarse_plan(const CoarseWorkload& load, std::uint64_t seed) {
@@ -35,7 +37,7 @@ tb::HfuPlan coarse_plan(const CoarseWorkload& load, std::uint64_t seed) {
   plan.config.slice_gaussians = load.hardware.slice_gaussians;
   plan.config.input_slots = load.hardware.input_slots;
   plan.config.candidate_fifo_entries = load.hardware.output_entries;
-  tb::add_shares(random, plan, 20, load.most);
+  tb::add_shares(random, plan, load.visits, load.most);
   return plan;
 }
 
@@ -107,6 +109,7 @@ TEST_CASE("clocked reference: coarse filter") {
   CoarseHardware exact, paper{4, 14, 99, 128, 2, 10};
   exact.port.config = preset_of<ExactConfig>("exact").port;
   paper.port.config = preset_of<PaperConfig>("paper").port;
+  exact.numbers = paper.numbers = hardware_of(GroupUse::kFilter);
   const PixelSize of_exact = preset_of<ExactConfig>("exact").group;
   const PixelSize of_paper = preset_of<PaperConfig>("paper").group;
   CoarseHardware tiny = exact;
@@ -125,6 +128,7 @@ TEST_CASE("clocked reference: coarse filter") {
            CoarseWorkload{"input stalled", 16, {2, 600}, exact},
            CoarseWorkload{"output stalled", 16, {1, 1, 4, 200}, exact},
            CoarseWorkload{"memory of 300 cycles", 16, {}, far},
+           CoarseWorkload{"a visit a group", 3, {}, exact, of_exact, 0, 1},
            CoarseWorkload{"tiny buffers", 16, {}, tiny},
            CoarseWorkload{"tiny buffers, output stalled", 16, {1, 1, 4, 200}, tiny},
            CoarseWorkload{"groups that finish", 16, {1, 1, 1, 1, {1500}}, exact, of_exact, 7571},

@@ -8,6 +8,7 @@
 #include "testbench/units/paper_vsu_plan.h"
 #include "tests/modules/clocked/comparison.h"
 #include "tests/modules/streaminggs/clocked/clocked_paper_vsu.h"
+#include "tests/modules/streaminggs/clocked/group_numbers_hardware.h"
 
 namespace sgs::test {
 namespace {
@@ -124,8 +125,10 @@ template <class Rays, class Table>
 Takings clocked_paper_vsu(const PaperVsuWorkload& load, std::uint64_t seed,
                           const tb::PaperVsuPlan& plan, const Rays& rays, const Table& table) {
   const StreamingJob& job = plan.scene.job;
-  ClockedPaperVsu<Rays, Table> unit(load.hardware, job.view, plan.scene.grid,
-                                    job.layout.voxel_table(), job.groups, rays, table);
+  PaperVsuHardware hardware = load.hardware;
+  hardware.numbers = hardware_of(GroupUse::kRays);
+  ClockedPaperVsu<Rays, Table> unit(hardware, job.view, plan.scene.grid, job.layout.voxel_table(),
+                                    job.groups, rays, table);
   std::vector<ClockedFifo<std::uint64_t>> shares(load.hfus,
                                                  ClockedFifo<std::uint64_t>(load.entries));
   std::vector<ClockedSink<std::uint64_t>> sinks;

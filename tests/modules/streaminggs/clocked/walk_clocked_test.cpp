@@ -6,6 +6,7 @@
 #include "testbench/units/job_memory.h"
 #include "tests/modules/clocked/comparison.h"
 #include "tests/modules/streaminggs/clocked/clocked_walk.h"
+#include "tests/modules/streaminggs/clocked/group_numbers_hardware.h"
 
 namespace sgs::test {
 namespace {
@@ -96,6 +97,7 @@ TEST_CASE("clocked reference: VSU of exact order") {
   Comparison table("VSU, exact order");
   WalkHardware exact;
   exact.port.config = preset_of<ExactConfig>("exact").port;
+  exact.numbers = hardware_of(GroupUse::kWalk);
   WalkHardware far = exact;
   far.port.read_latency = 300;
   WalkHardware tiny = exact;
@@ -105,6 +107,8 @@ TEST_CASE("clocked reference: VSU of exact order") {
   WalkHardware narrow = exact;
   narrow.tests.test_cycles = 29;
   narrow.nodes_in_test = 3;
+  WalkHardware bare = exact;
+  bare.upper_nodes = 0;
   WalkHardware fast = exact;
   fast.operation_cycles = 2;
   fast.tests.test_cycles = 1;
@@ -114,9 +118,10 @@ TEST_CASE("clocked reference: VSU of exact order") {
            WalkWorkload{"output stalled", 1500, 4, 300, exact},
            WalkWorkload{"memory of 300 cycles", 1500, 1, 1, far},
            WalkWorkload{"tiny buffers", 1500, 1, 1, tiny, 1, 1},
+           WalkWorkload{"no node on chip", 1500, 1, 1, bare},
            WalkWorkload{"a child every 29 cycles", 1500, 1, 1, narrow},
            WalkWorkload{"a child a cycle, operations of 2", 1500, 1, 1, fast},
-           WalkWorkload{"groups that finish", 3000, 1, 1, exact, 4, 4, {3000}, 116},
+           WalkWorkload{"groups that finish", 3000, 1, 1, exact, 4, 4, {3000}, 14},
        }) {
     table.workload(load, run_walk, clocked_walk, load.apart);
   }
