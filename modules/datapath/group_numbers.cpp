@@ -32,7 +32,7 @@ FlowPart group_flow(GroupUse use, std::uint32_t across) {
     const GroupPlaceOf<CountingIndex> at{x == 0 ? place.x : place.x + CountingIndex(x),
                                          y == 0 ? place.y : place.y + CountingIndex(y)};
     const auto pixels = group_at(at, of_part, kFrame);
-    if (use == GroupUse::kRays) {
+    if (use == GroupUse::kRays || use == GroupUse::kPixels) {
       keep(flow, {pixels.x0, pixels.y0, pixels.x1, pixels.y1});
       continue;
     }
@@ -42,7 +42,7 @@ FlowPart group_flow(GroupUse use, std::uint32_t across) {
       keep_sides(flow, from_middle(outer, Counting(kMiddleX), Counting(kMiddleY)));
     }
   }
-  if (use != GroupUse::kFilter) {
+  if (use == GroupUse::kWalk || use == GroupUse::kRays) {
     const auto next = group_behind(place, kGroup, kFrame);
     keep(flow, {next.x, next.y});
   }

@@ -17,6 +17,7 @@ namespace sgs {
 enum class GroupUse : std::uint8_t {
   kWalk,    // the sides of its frustum, and where the next group lies
   kFilter,  // the centres of its outer pixels, from its place
+  kPixels,  // its pixels, from its place
   kRays     // its pixels, and where the next group lies
 };
 
@@ -56,6 +57,34 @@ class GroupNumbersInTurn {
  private:
   const GroupNumbers made_;
   std::uint64_t free_ = 0, groups_ = 0;
+};
+
+// The numbers of a filter: of the group that is tested and of the one before it, whose tests may be
+// under way.
+class TestedGroupNumbers {
+ public:
+  explicit TestedGroupNumbers(const GroupNumbers& made) : in_turn_(made) {}
+
+  // The cycle from which on tests of the group can begin. known: from this cycle on it is.
+  std::uint64_t stand(std::uint32_t group, std::uint64_t known) {
+    if (group_ == group) return stand_;
+    group_ = group;
+    set_ = 1 - set_;
+    return stand_ = in_turn_.stand(std::max(known, left_[set_]));
+  }
+  // A test of this group will have left the pipeline in this cycle.
+  void leaves(std::uint64_t cycle) { left_[set_] = cycle; }
+  void publish(DataSheet& sheet, const char* component) const {
+    in_turn_.publish(sheet, component);
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  GroupNumbersInTurn in_turn_;
+  std::uint32_t group_ = kNone, set_ = 0;
+  std::uint64_t stand_ = 0;
+  std::uint64_t left_[2] = {};  // [set] the last test that takes it
 };
 
 }  // namespace sgs

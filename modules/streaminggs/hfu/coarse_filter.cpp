@@ -20,9 +20,8 @@ CoarseFilter::CoarseFilter(const sc_core::sc_module_name& name, const HfuConfig&
                                           context.built_for.single),
                           static_cast<std::uint32_t>(context.job.parts.size()))),
       has_cfus_(has_cfus(config, context.job.layout.split.bound_by)),
-      numbers_{GroupNumbersInTurn(
-          group_numbers(group_flow(GroupUse::kFilter, parts_across(context.job.parts.size())),
-                        context.built_for.single))},
+      numbers_(group_numbers(group_flow(GroupUse::kFilter, parts_across(context.job.parts.size())),
+                             context.built_for.single)),
       job_(context.job),
       record_bytes_(job_.layout.first_halves.record_bytes),
       load_("load", context.clock),
@@ -97,13 +96,8 @@ void CoarseFilter::run_filter() {
 
 // Made as soon as the group is known, and no test takes the numbers that were there before.
 void CoarseFilter::wait_for_numbers(const Slice& slice) {
-  if (numbers_.group != slice.share.group) {
-    numbers_.group = slice.share.group;
-    numbers_.set = 1 - numbers_.set;
-    numbers_.stand = numbers_.in_turn.stand(std::max(slice.known, numbers_.left[numbers_.set]));
-  }
   const std::uint64_t now = filter_.clock().now_cycles();
-  filter_.work(std::max(now, numbers_.stand) - now);
+  filter_.work(std::max(now, numbers_.stand(slice.share.group, slice.known)) - now);
 }
 
 std::byte* CoarseFilter::first_half(std::uint32_t slot, std::uint32_t at) {
@@ -138,7 +132,7 @@ void CoarseFilter::filter_slice(const Slice& slice) {
       cycle = passed = filter_.clock().now_cycles();
     }
     cycle = next_turn_of_one(cycle, of_test, cfus) + 1;
-    numbers_.left[numbers_.set] = cycle + config_.cfu_depth_cycles;
+    numbers_.leaves(cycle + config_.cfu_depth_cycles);
     ++counters_.read;
     const SplitFirstHalf first = read_first_half(split, first_half(slice.slot, i));
     const FirstHalfBound bound = bound_first_half(split, first, job_.view);
@@ -212,7 +206,7 @@ void CoarseFilter::publish(DataSheet& sheet) {
   sheet.counters(counters_);
   if (has_cfus_) {
     sheet.datapath(tests_, counters_.read);
-    numbers_.in_turn.publish(sheet, "coarse");
+    numbers_.publish(sheet, "coarse");
   }
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated, "filtering and second halves");

@@ -62,14 +62,6 @@ class CoarseFilter : public sc_core::sc_module {
     std::uint32_t slot = 0;   // slot of the input buffer
     std::uint64_t known = 0;  // cycle from which on its group is known here
   };
-  // Numbers of the group that is filtered and of the one before, whose tests may be under way.
-  struct Numbers {
-    GroupNumbersInTurn in_turn;
-    std::uint32_t group = ~std::uint32_t{0};
-    std::uint64_t stand = 0;     // from this cycle on
-    std::uint64_t left[2] = {};  // [set] when the last test that takes it has left the pipeline
-    std::uint32_t set = 0;
-  };
 
   void run_load();    // thread: first halves into the input buffer
   void run_filter();  // thread: CFUs
@@ -86,7 +78,7 @@ class CoarseFilter : public sc_core::sc_module {
   const BuiltFor built_for_;
   const Datapath tests_;
   const bool has_cfus_;
-  Numbers numbers_;
+  TestedGroupNumbers numbers_;
   const StreamingJob& job_;
   const std::uint32_t record_bytes_;
   Activity load_, filter_;

@@ -51,7 +51,9 @@ FineFilter::FineFilter(const sc_core::sc_module_name& name, const HfuConfig& con
 void FineFilter::make_part(std::uint32_t index, const ClockDomain& clock,
                            const CodebookConfig& codebook) {
   const std::string number = job_.parts.size() > 1 ? std::to_string(index) : "";
-  parts_.push_back(std::make_unique<Part>(index, number, clock, fetched_entries(config_)));
+  parts_.push_back(
+      std::make_unique<Part>(index, number, clock, fetched_entries(config_),
+                             group_numbers(group_flow(GroupUse::kPixels), built_for_.single)));
   Part& part = *parts_.back();
   sc_core::sc_spawn([this, &part] { run_filter(part); }, ("run_filter" + number).c_str());
   if (!job_.layout.second_half.quantised()) {
@@ -182,6 +184,7 @@ void FineFilter::filter_next(Part& part) {
 void FineFilter::filter_decoded(Part& part) {
   const Decoded& front = part.stage->decoded.front(part.filter);
   take_up(front.candidate, part.filter);
+  if (front.candidate.mark == Mark::kNone) wait_for_numbers(part, front.candidate.group);
   wait_for_place(part, front.candidate.visit);
   const bool wanted = is_wanted(part, front.candidate);
   if (wanted) wait_for_turn_of_one(part);
@@ -207,6 +210,7 @@ void FineFilter::filter_fetched(Part& part) {
     return;
   }
   await(memory, part.filter, next.candidate.ticket);
+  wait_for_numbers(part, next.candidate.group);
   ++counters_.second_halves_taken;
   wait_for_place(part, next.candidate.visit);
   const bool wanted = is_wanted(part, next.candidate);
@@ -224,6 +228,12 @@ void FineFilter::filter_fetched(Part& part) {
 bool FineFilter::is_wanted(const Part& part, const FineCandidate& candidate) const {
   return candidate.mark == Mark::kNone &&
          !finished[static_cast<int>(part.index)]->finished(candidate.group);
+}
+
+// Its group was known before its second half was fetched, which takes longer than the numbers.
+void FineFilter::wait_for_numbers(Part& part, std::uint32_t group) const {
+  const std::uint64_t now = part.filter.clock().now_cycles();
+  part.filter.work(std::max(now, part.numbers.stand(group, 0)) - now);
 }
 
 // The FFUs have their turns spread evenly: records come apart by what reads or decodes them.
@@ -254,6 +264,7 @@ void FineFilter::drop(Part& part, const FineCandidate& candidate) {
 
 void FineFilter::test(Part& part, const Decoded& decoded) {
   const std::uint64_t began = part.filter.clock().now_cycles();
+  part.numbers.leaves(began + 1 + config_.ffu_depth_cycles);
   part.filter.work(1);
   ++counters_.fine_tests;
   hand_on(part, decoded, began);

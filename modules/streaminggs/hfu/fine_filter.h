@@ -4,9 +4,10 @@
 // group that the candidate may touch; its slot is free when all have it.
 // Timing: one candidate every ffu_interval_cycles in each FFU, whose turns are spread evenly; marks
 // pass beside the lanes. Each begins only with a place in the FIFO behind its pipeline.
-// second_half_slots fetches run ahead. Quantised second halves pass a stage before the FFU that
-// reads the codebook buffer, each once there is a place for the decoded record. Function:
-// algorithm/splat/make_splat.h.
+// The group's pixels are found while its first second half is fetched, once no test takes those of
+// the group before the last. second_half_slots fetches run ahead. Quantised second halves pass a
+// stage before the FFU that reads the codebook buffer, each once there is a place for the decoded
+// record. Function: algorithm/splat/make_splat.h.
 #pragma once
 
 #include <cstddef>
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "algorithm/memory/record_split.h"
+#include "modules/datapath/group_numbers.h"
 #include "modules/datapath/places_under_test.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/hfu/codebook_config.h"
@@ -100,14 +102,16 @@ class FineFilter : public sc_core::sc_module {
     TimedFifo<FineCandidate> fetched;
     std::unique_ptr<DecodeStage> stage;   // null where second halves are not quantised
     std::vector<PlacesUnderTest> places;  // in each FIFO of its splats
-    sc_core::sc_event arrived;            // something that its FFU takes
+    TestedGroupNumbers numbers;
+    sc_core::sc_event arrived;  // something that its FFU takes
     // Activity that takes second halves out of their slots.
     Activity& taker() { return stage ? stage->decode : filter; }
     Part(std::uint32_t at, const std::string& number, const ClockDomain& clock,
-         std::uint32_t fetched_entries)
+         std::uint32_t fetched_entries, const GroupNumbers& of_groups)
         : index(at),
           filter(("filter" + number).c_str(), clock),
-          fetched(("fetched" + number).c_str(), clock, fetched_entries) {}
+          fetched(("fetched" + number).c_str(), clock, fetched_entries),
+          numbers(of_groups) {}
   };
 
   void make_part(std::uint32_t index, const ClockDomain& clock, const CodebookConfig& codebook);
@@ -126,6 +130,7 @@ class FineFilter : public sc_core::sc_module {
   void pass_mark(Part& part, const FineCandidate& candidate);
   bool mark_is_next(Part& part);
   void work_lanes(Part& part, std::uint64_t end);
+  void wait_for_numbers(Part& part, std::uint32_t group) const;
   void wait_for_turn_of_one(Part& part) const;
   void wait_for_place(Part& part, std::uint32_t visit);
   void test(Part& part, const Decoded& decoded);

@@ -76,6 +76,7 @@ void FineFilter::publish(DataSheet& sheet) {
   sheet.port(memory);
   sheet.sram(sram_uses(config_, built_for_, static_cast<std::uint32_t>(parts_.size())));
   for (const auto& part : parts_) {
+    part->numbers.publish(sheet, "fine");
     sheet.queue(part->fetched, "fetched candidates");
     sheet.remedy(part->filter, "hfu.ffu_lanes");
     sheet.may_help("hfu.ffus");

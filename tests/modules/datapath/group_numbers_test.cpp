@@ -10,7 +10,8 @@
 namespace sgs::test {
 namespace {
 
-constexpr GroupUse kUses[] = {GroupUse::kWalk, GroupUse::kFilter, GroupUse::kRays};
+constexpr GroupUse kUses[] = {GroupUse::kWalk, GroupUse::kFilter, GroupUse::kPixels,
+                              GroupUse::kRays};
 
 TEST_CASE("group numbers: groups row by row, each pixel of the frame in one, counted or not") {
   const PixelSize frame{45, 23}, group{16, 8};
@@ -51,6 +52,9 @@ TEST_CASE("group numbers, counted: what the formulas say") {
   const OperationCounts rays = group_flow(GroupUse::kRays).counts();
   CHECK(rays.conversions == 0);
   CHECK(rays.index_adds == 2);
+  const OperationCounts pixels = group_flow(GroupUse::kPixels).counts();
+  CHECK(pixels.index_adds == 2);
+  CHECK(pixels.comparisons == 2);
 }
 
 TEST_CASE("group numbers: one part of each kind does a group's operations in its interval") {
@@ -77,6 +81,20 @@ TEST_CASE("group numbers: they stand their depth behind what they wait for") {
   CHECK(numbers.stand(100) == 111);  // the registers are
   CHECK(numbers.stand(102) == 115);
   CHECK(numbers.groups() == 4);
+}
+
+TEST_CASE("group numbers: a third group's wait until the first one's tests have left") {
+  GroupNumbers made;
+  made.depth_cycles = 5;
+  TestedGroupNumbers numbers(made);
+  CHECK(numbers.stand(7, 10) == 15);
+  numbers.leaves(200);
+  CHECK(numbers.stand(7, 20) == 15);
+  CHECK(numbers.stand(8, 20) == 25);
+  numbers.leaves(300);
+  CHECK(numbers.stand(9, 30) == 205);
+  numbers.leaves(310);
+  CHECK(numbers.stand(12, 400) == 405);
 }
 
 }  // namespace

@@ -72,7 +72,9 @@ class ClockedDecodingFilter {
         decoded_(kDecodedEntries, codebooks.latency_cycles) {}
 
   ClockedFifo<std::uint64_t>& out() { return ffu_.out; }
-  void step_results() { ffu_.step_results(); }
+  void step_results() {
+    ffu_.step_results([&](std::uint32_t numbers) { fetch_.leave(numbers); });
+  }
   // Before the codebooks' step(). finished: of a group, whether the news has come.
   template <class Finished>
   void begin(ClockedCodebooks& codebooks, const Finished& finished) {
@@ -96,9 +98,9 @@ class ClockedDecodingFilter {
   void begin_test(const Finished& finished) {
     if (!decoded_.can_take() || !ffu_.has_place()) return;
     if (!decoded_.front().is_mark) {
-      if (!ffu_.is_free()) return;
+      if (!ffu_.is_free() || !fetch_.numbers_stand(decoded_.front())) return;
       if (!ffu_.wants(decoded_.front(), finished)) {
-        decoded_.take();
+        fetch_.leave(decoded_.take().numbers);
         ffu_.drop();
         return;
       }

@@ -12,7 +12,9 @@ class ClockedFineFilter {
       : hw_(hardware), fetch_(hardware, hardware.read_cycles), ffu_(hardware) {}
 
   ClockedFifo<std::uint64_t>& out() { return ffu_.out; }
-  void step_results() { ffu_.step_results(); }
+  void step_results() {
+    ffu_.step_results([&](std::uint32_t numbers) { fetch_.leave(numbers); });
+  }
   template <class Finished>
   void step(ClockedFifo<FineItem>& candidates, const Finished& finished) {
     fetch_.step_slots();
@@ -30,7 +32,7 @@ class ClockedFineFilter {
       ffu_.begin(fetch_.take(), hw_.read_cycles);
       return;
     }
-    if (!fetch_.data_is_in() || !ffu_.is_free()) return;
+    if (!fetch_.data_is_in() || !ffu_.is_free() || !fetch_.numbers_stand(fetch_.front())) return;
     const bool wanted = ffu_.wants(fetch_.front(), finished);
     if (wanted && !ffu_.has_turn()) return;
     fetch_.free_slot(hw_.read_cycles);
@@ -39,6 +41,7 @@ class ClockedFineFilter {
       ffu_.begin(item, hw_.read_cycles);
     } else {
       ffu_.drop();
+      fetch_.leave(item.numbers);
     }
   }
 

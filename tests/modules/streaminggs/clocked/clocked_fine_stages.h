@@ -5,10 +5,12 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 #include <vector>
 
 #include "tests/modules/clocked/clocked_fifo.h"
+#include "tests/modules/clocked/clocked_group_numbers.h"
 #include "tests/modules/clocked/clocked_port.h"
 
 namespace sgs::test {
@@ -22,6 +24,7 @@ struct FineHardware {
   bool reports_rejects = false;  // they go on, as kRejectedItem
   PortHardware port = {};
   std::uint32_t ffus = 1;  // that take tests in turn
+  GroupNumbersHardware numbers = {};
 };
 constexpr std::uint64_t kRejectedItem = 1U << 21U;
 
@@ -32,13 +35,17 @@ struct FineItem {
   bool passes = true;
   ClockedTransfer read = {};              // that fetches it; of a mark nothing
   std::vector<std::uint32_t> banks = {};  // of the codebook buffer, of the lines of its entries
+  std::uint32_t numbers = 0;              // that it is tested with
 };
 
 class ClockedFetch {
  public:
   // slots_in: cycles until the slots are free, from the first cycle on.
   ClockedFetch(const FineHardware& hardware, std::uint32_t slots_in)
-      : hw_(hardware), port_(hardware.port), freed_(hardware.slots, slots_in) {}
+      : hw_(hardware),
+        port_(hardware.port),
+        numbers_(hardware.numbers),
+        freed_(hardware.slots, slots_in) {}
 
   bool can_take() const { return !fetched_.empty() && fetched_.front().seen_in == 0; }
   const FineItem& front() const { return fetched_.front().item; }
@@ -48,11 +55,15 @@ class ClockedFetch {
     fetched_.pop_front();
     return item;
   }
+  bool numbers_stand(const FineItem& item) const { return numbers_.stand(item.numbers); }
+  // An item that was taken needs its numbers no more.
+  void leave(std::uint32_t numbers) { --users_[numbers]; }
   void free_slot(std::uint32_t in_cycles) { freed_.push_back(in_cycles); }
 
   // In every cycle step_slots() comes before those who take and free, step() behind them.
   void step_slots() {
     port_.begin_cycle();
+    numbers_.step([&](std::uint32_t group) { return group < 2 || users_[group - 2] == 0; });
     while (!freed_.empty() && freed_.front() == 0) {
       ++free_slots_;
       freed_.pop_front();
@@ -84,6 +95,7 @@ class ClockedFetch {
       fetching_ = candidates.take();
       if (!fetching_->is_mark && finished(fetching_->group)) drop();
       if (!fetching_) return;
+      if (!fetching_->is_mark) give_numbers();
     }
     if (!fetching_->is_mark) {
       if (free_slots_ == 0) return;
@@ -91,6 +103,12 @@ class ClockedFetch {
     }
     asking_ = fetching_;
     fetching_.reset();
+  }
+  void give_numbers() {
+    if (group_ != fetching_->group) of_group_ = numbers_.ask();
+    group_ = fetching_->group;
+    fetching_->numbers = of_group_;
+    ++users_[of_group_];
   }
   // A rejected one keeps its place in the order, as a mark does.
   void drop() {
@@ -103,7 +121,11 @@ class ClockedFetch {
 
   const FineHardware hw_;
   ClockedPort port_;
-  std::optional<FineItem> fetching_, asking_;  // wants a slot; its transactions leave
+  ClockedGroupNumbers numbers_;
+  std::optional<std::uint32_t> group_;  // of the last item that was fetched
+  std::uint32_t of_group_ = 0;
+  std::map<std::uint32_t, std::uint32_t> users_;  // [numbers] items that will be tested, or are
+  std::optional<FineItem> fetching_, asking_;     // wants a slot; its transactions leave
   std::deque<Fetched> fetched_;
   std::uint32_t free_slots_ = 0;
   std::deque<std::uint32_t> freed_;  // cycles until a slot is free
@@ -116,12 +138,14 @@ class ClockedFfu {
   explicit ClockedFfu(const FineHardware& hardware)
       : out(hardware.output_entries, 0), hw_(hardware) {}
 
-  // As ClockedCoarseFilter's.
-  void step_results() {
+  // As ClockedCoarseFilter's. leave(numbers): a test is done with them.
+  template <class Leave>
+  void step_results(const Leave& leave) {
     for (InTest& test : in_test_) --test.left;
     while (!in_test_.empty() && in_test_.front().left == 0) {
       const InTest& test = in_test_.front();
       if (test.passes || hw_.reports_rejects) out.put(test.passes ? test.what : kRejectedItem);
+      if (test.numbers) leave(*test.numbers);
       in_test_.pop_front();
     }
   }
@@ -141,13 +165,14 @@ class ClockedFfu {
       const std::uint32_t lanes = hw_.ffus > 1 ? 1 : hw_.test_cycles;
       lanes_free_in_ = lanes < read_cycles ? read_cycles : lanes;
     }
-    in_test_.push_back({hw_.depth_cycles + 1, item.what, item.passes});
+    in_test_.push_back({hw_.depth_cycles + 1, item.what, item.passes, {}});
+    if (!item.is_mark) in_test_.back().numbers = item.numbers;
     if (!item.is_mark) wants_.reset();
   }
   // A cycle of the lanes' time.
   void drop() {
     lanes_free_in_ = 1;
-    if (hw_.reports_rejects) in_test_.push_back({hw_.depth_cycles + 1, 0, false});
+    if (hw_.reports_rejects) in_test_.push_back({hw_.depth_cycles + 1, 0, false, {}});
     wants_.reset();
   }
   void step() {
@@ -159,6 +184,7 @@ class ClockedFfu {
   struct InTest {
     std::uint64_t left, what;
     bool passes;
+    std::optional<std::uint32_t> numbers;  // not of what is no test
   };
 
   const FineHardware hw_;

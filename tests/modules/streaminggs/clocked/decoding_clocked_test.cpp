@@ -10,6 +10,7 @@
 #include "testbench/units/job_memory.h"
 #include "tests/modules/clocked/comparison.h"
 #include "tests/modules/streaminggs/clocked/clocked_decoding_filter.h"
+#include "tests/modules/streaminggs/clocked/group_numbers_hardware.h"
 #include "tests/modules/streaminggs/clocked/hfu_workloads.h"
 
 namespace sgs::test {
@@ -148,6 +149,7 @@ Takings clocked_decoding(const DecodingWorkload& load, std::uint64_t seed) {
 TEST_CASE("clocked reference: fine filters that decode") {
   Comparison table("decoding");
   FineHardware paper{6, 27, 176, 1, 7};
+  paper.numbers = hardware_of(GroupUse::kPixels);
   paper.port.config = preset_of<PaperConfig>("paper").port;
   FineHardware fast = paper, tiny = paper, far = paper;
   fast.test_cycles = 4;

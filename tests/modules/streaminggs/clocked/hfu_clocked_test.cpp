@@ -205,6 +205,7 @@ TEST_CASE("clocked reference: fine filter") {
   FineHardware exact, paper{6, 27, 176, 7, 7};
   exact.port.config = preset_of<ExactConfig>("exact").port;
   exact.reports_rejects = true;
+  exact.numbers = paper.numbers = hardware_of(GroupUse::kPixels);
   paper.port.config = preset_of<PaperConfig>("paper").port;
   const PixelSize of_paper = preset_of<PaperConfig>("paper").group;
   FineHardware tiny = exact;
