@@ -12,8 +12,8 @@ namespace sgs {
 namespace {
 
 // No two numbers of the frame and the group are equal. The group is the last of its row.
-constexpr PixelSize kFrame{250, 190}, kGroup{48, 36};
-constexpr float kMiddleX = 124.25F, kMiddleY = 94.75F;
+constexpr PixelSize kFrame{250, 187}, kGroup{48, 36};
+constexpr float kMiddleX = 124.25F, kMiddleY = 93.25F;
 
 void keep_sides(DataFlow& flow, const GroupSides<Counting>& sides) {
   keep(flow, {sides.left, sides.right, sides.top, sides.bottom});

@@ -85,7 +85,8 @@ void check_rows(const Technology& technology, const Json& shipped) {
   for (const std::string& kind : kinds) technology.part(kind);
 }
 
-// A line about published constants and points that are not the shipped table's; empty: none.
+// A line about published constants and points that are not the shipped table's, in whatever
+// sequence their keys stand; empty: none.
 std::string note_on_published(const Json& given, const Json& shipped, const std::string& path) {
   std::vector<std::string> changed;
   for (const std::string section : {"published", "sram.points"}) {
@@ -94,7 +95,8 @@ std::string note_on_published(const Json& given, const Json& shipped, const std:
     const Json rows = given.value(Json::json_pointer(pointer), Json::object());
     const Json ours = shipped.value(Json::json_pointer(pointer), Json::object());
     for (const auto& [name, row] : rows.items())
-      if (!ours.contains(name) || ours.at(name) != row) changed.push_back(section + "." + name);
+      if (!ours.contains(name) || nlohmann::json(ours.at(name)) != nlohmann::json(row))
+        changed.push_back(section + "." + name);
   }
   return changed.empty() ? "" : fmt::format("{}: {}: no cost is made of it", path, join(changed));
 }

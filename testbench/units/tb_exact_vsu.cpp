@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "modules/datapath/group_numbers.h"
 #include "testbench/units/case_runner.h"
 #include "testbench/units/exact_vsu_plan.h"
 #include "testbench/units/job_memory.h"
@@ -89,8 +90,10 @@ void check_counters(UnitBench& bench, const ExactVsuPlan& plan, const ExpectedWa
   checks.that(bench.bytes_read() >= table_bytes, "bytes read of the tree");
   checks.that(bench.bytes_read() <= table_bytes + aside_bytes, "bytes read of what was put aside");
   bench.check_operations("vsu", "fp32_lane", bench.counter("tests") * macs_of_a_test());
-  bench.check_operations("vsu", "number_comparator",
-                         bench.counter("tests") * comparisons_of_a_test());
+  bench.check_operations(
+      "vsu", "number_comparator",
+      bench.counter("tests") * comparisons_of_a_test() +
+          plan.job.groups.size() * group_flow(GroupUse::kWalk).counts().comparisons);
   checks.equal(bench.counter("nodes"),
                bench.counter("upper_nodes_opened") + bench.counter("nodes_read") -
                    bench.counter("nodes_dropped"),

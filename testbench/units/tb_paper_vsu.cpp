@@ -3,6 +3,7 @@
 // cycle: tests/modules/streaminggs/clocked.
 #include <algorithm>
 
+#include "modules/datapath/group_numbers.h"
 #include "modules/streaminggs/vsu/paper_vsu.h"
 #include "testbench/units/case_runner.h"
 #include "testbench/units/job_memory.h"
@@ -167,7 +168,8 @@ void check_rays(UnitBench& bench, const PaperVsuPlan& plan, const ExpectedVisits
                          (steps - rays) * macs_of_a_step() + rays * macs_of_a_beginning());
   bench.check_operations(
       "vsu", "number_comparator",
-      (steps - rays) * comparisons_of_a_step() + rays * comparisons_of_a_beginning());
+      (steps - rays) * comparisons_of_a_step() + rays * comparisons_of_a_beginning() +
+          plan.scene.job.groups.size() * group_flow(GroupUse::kRays).counts().comparisons);
 }
 
 // Samples: of rays that lie in no window, since what they meet first is behind it, none are looked

@@ -134,7 +134,8 @@ class Read(InFolder):
             with self.subTest(expected):
                 path.write_text(text)
                 machine = sweep.Machine(tuple(read_sweep(path)))
-                self.assertEqual(sweep.cell(machine.value("mm2 with PHY")), expected)
+                measure = "mm2 with PHY"
+                self.assertEqual(sweep.cell(measure, machine.value(measure)), expected)
 
     def test_what_was_not_done_is_named_as_text(self):
         status, page = self.page(line(9, 1, 1) + line(0, 0, 0, "refused", set={"hfus": 0}))
