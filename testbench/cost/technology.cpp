@@ -85,18 +85,19 @@ void check_rows(const Technology& technology, const Json& shipped) {
   for (const std::string& kind : kinds) technology.part(kind);
 }
 
-// A line about published constants and points that are not the shipped table's, in whatever
-// sequence their keys stand; empty: none.
-std::string note_on_published(const Json& given, const Json& shipped, const std::string& path) {
+// A line about published constants and points that are not the shipped table's; empty: none.
+// The order of their keys says nothing.
+std::string note_on_published(const nlohmann::json& given, const nlohmann::json& shipped,
+                              const std::string& path) {
   std::vector<std::string> changed;
   for (const std::string section : {"published", "sram.points"}) {
     std::string pointer = "/" + section;
     std::replace(pointer.begin(), pointer.end(), '.', '/');
-    const Json rows = given.value(Json::json_pointer(pointer), Json::object());
-    const Json ours = shipped.value(Json::json_pointer(pointer), Json::object());
+    const nlohmann::json::json_pointer at(pointer);
+    const nlohmann::json rows = given.value(at, nlohmann::json::object());
+    const nlohmann::json ours = shipped.value(at, nlohmann::json::object());
     for (const auto& [name, row] : rows.items())
-      if (!ours.contains(name) || nlohmann::json(ours.at(name)) != nlohmann::json(row))
-        changed.push_back(section + "." + name);
+      if (!ours.contains(name) || ours.at(name) != row) changed.push_back(section + "." + name);
   }
   return changed.empty() ? "" : fmt::format("{}: {}: no cost is made of it", path, join(changed));
 }
