@@ -42,6 +42,9 @@ def power_columns(machine: str) -> tuple[Column, ...]:
         Column(f"{machine} W", "empty: it does not hold this rate", "W", ".3f"),
         Column(f"{machine} W, least", "with the low ends of all sources", "W", ".3f"),
         Column(f"{machine} W, most", "with the high ends", "W", ".3f"),
+        Column(f"{machine} W with PHY", "with the memory's PHY and controller", "W", ".3f"),
+        Column(f"{machine} W with PHY, least", "with the low ends of all sources", "W", ".3f"),
+        Column(f"{machine} W with PHY, most", "with the high ends", "W", ".3f"),
     )
 
 
@@ -52,6 +55,9 @@ POWER_COLUMNS = (
     Column(GAIN, "energy of a frame and its rest", "", ".2f"),
     Column(f"{GAIN}, least", "each source of error at one end in both machines", "", ".2f"),
     Column(f"{GAIN}, most", "likewise", "", ".2f"),
+    Column(f"{GAIN}, with PHY", "with the memory's PHY and controller in both", "", ".2f"),
+    Column(f"{GAIN}, with PHY, least", "these are one more source of error", "", ".2f"),
+    Column(f"{GAIN}, with PHY, most", "likewise", "", ".2f"),
 )
 
 
@@ -76,38 +82,57 @@ def sources_of_error(view: dict) -> list[tuple[str, ...]]:
 
 @dataclasses.dataclass(frozen=True)
 class Spent:
-    """Joules of a frame and its rest at a rate. sources: at the low and the high end of each."""
+    """Joules of a frame and its rest at a rate. low, middle, high: of all. sources: at the low and
+    the high end of each."""
 
     rate: float
-    joules: float
     rest: float
     low: float
+    middle: float
     high: float
     sources: tuple[tuple[float, float], ...]
 
-    def cells(self) -> tuple:
-        watts = (self.rate * joules for joules in (self.joules, self.low, self.high))
-        return (self.joules / MJ, self.rest / self.joules, *watts)
+    def watts(self) -> tuple[float, float, float]:
+        return (self.rate * self.middle, self.rate * self.low, self.rate * self.high)
 
 
-def spent(view: dict, rest: dict | None, rate: float) -> Spent:
-    """rest: its energy; None where the next frame begins at once."""
+Both = tuple[Spent, Spent]  # without and with PHY and controller of the memory
+
+
+def spent(view: dict, at_rate: dict | None, rate: float) -> Both:
+    """at_rate: an entry of fixed_rates; None where the next frame begins at once."""
+    rest = at_rate["rest"] if at_rate else None
     sections = [view["energy"], *([rest] if rest else [])]
 
     def at(keys: Iterable[str], end: str) -> float:
         return sum(joules_at_end(section, keys, end) for section in sections)
 
+    def with_interface(end: str) -> float:
+        if at_rate:
+            return at_rate["with_memory_interface_w"][end] / rate
+        return view["energy"]["with_memory_interface_j"][end]
+
     sources = tuple((at(keys, "low"), at(keys, "high")) for keys in sources_of_error(view))
-    middle, low, high = (at(OTHER["all"], end) for end in ("middle", "low", "high"))
-    return Spent(rate, middle, rest["total_j"] if rest else 0.0, low, high, sources)
-
-
-def spent_by_rate(view: dict) -> list[Spent | None]:
-    """Alone, and at each rate; None where it is not held."""
-    held = (
-        spent(view, of["rest"], of["per_s"]) if of["held"] else None for of in view["fixed_rates"]
+    ends = ("low", "middle", "high")
+    without, both = [at(OTHER["all"], end) for end in ends], list(map(with_interface, ends))
+    rest_j = rest["total_j"] if rest else 0.0
+    interface = (both[0] - without[0], both[2] - without[2])
+    return (
+        Spent(rate, rest_j, *without, sources),
+        Spent(rate, rest_j, *both, (*sources, interface)),
     )
+
+
+def spent_by_rate(view: dict) -> list[Both | None]:
+    """Alone, and at each rate; None where it is not held."""
+    held = (spent(view, of, of["per_s"]) if of["held"] else None for of in view["fixed_rates"])
     return [spent(view, None, view["frame"]["fps"]), *held]
+
+
+def cells(both: Both) -> tuple:
+    without, with_interface = both
+    share = without.rest / without.middle
+    return (without.middle / MJ, share, *without.watts(), *with_interface.watts())
 
 
 def gains_by_ends(ours: Spent, others: Spent) -> list[float]:
@@ -122,13 +147,13 @@ def gains_by_ends(ours: Spent, others: Spent) -> list[float]:
 def gain_band(ours: Spent, others: Spent) -> tuple[float, float, float]:
     """The ratio, and its ends with each source at one end in both machines."""
     gains = gains_by_ends(ours, others)
-    return others.joules / ours.joules, min(gains), max(gains)
+    return others.middle / ours.middle, min(gains), max(gains)
 
 
 def gain_row(pair: tuple[str, str], views: Mapping[str, Sequence[dict]]) -> tuple:
     """views: of each machine, a scene each."""
     alone = [
-        [spent(view, None, view["frame"]["fps"]) for view in of_scene]
+        [spent(view, None, view["frame"]["fps"])[0] for view in of_scene]
         for of_scene in zip(*(views[machine] for machine in pair))
     ]
     means = list(map(statistics.geometric_mean, zip(*(gains_by_ends(*of) for of in alone))))
@@ -137,11 +162,12 @@ def gain_row(pair: tuple[str, str], views: Mapping[str, Sequence[dict]]) -> tupl
     return (" / ".join(pair), mean, min(means), max(means), min(least))
 
 
-def power_row(scene: str, rate: object, ours: Spent | None, others: Spent | None) -> tuple:
+def power_row(scene: str, rate: object, ours: Both | None, others: Both | None) -> tuple:
     empty = (None,) * len(power_columns(""))
-    cells = [of.cells() if of else empty for of in (ours, others)]
-    gain = gain_band(ours, others) if ours and others else (None, None, None)
-    return (scene, rate, *cells[0], *cells[1], *gain)
+    of_machines = [cell for of in (ours, others) for cell in (cells(of) if of else empty)]
+    pairs = zip(ours, others) if ours and others else ()
+    gains = [cell for pair in pairs for cell in gain_band(*pair)]
+    return (scene, rate, *of_machines, *(gains or (None,) * 6))
 
 
 def add_power_arguments(to: run_arguments.Parser) -> None:
@@ -183,20 +209,23 @@ def make_power(arguments: argparse.Namespace) -> None:
         for rate, *both in zip((ALONE, *rates), spent_by_rate(ours), spent_by_rate(others)):
             rows.append(power_row(scene.name, rate, *both))
             if all(both):
-                _, least, most = gain_band(*both)
+                (ours_alone, _), (others_alone, _) = both
+                _, least, most = gain_band(ours_alone, others_alone)
                 sides += least < 1 < most
-                apart += both[1].low < both[0].high
+                apart += others_alone.low < ours_alone.high
     about += (
-        f" Within the band {sides} of {len(rows)} rows change sides; were the sources' errors each "
-        f"machine's own, {apart} would. PHY and controller of the memory are in no column."
+        " The memory refreshes itself between frames, at the high ends it is in power-down: there "
+        "a display reads it too. "
+        f"Within the band {sides} of {len(rows)} rows change sides; were the sources' errors each "
+        f"machine's own, {apart} would."
     )
     tables.write(arguments.out, "power_at_rate", by, POWER_COLUMNS, rows, about)
 
 
 POWER = Study(
     "power",
-    f"""Power of {OURS} and {OTHERS} at fixed frame rates, the memory in self-refresh between frames, with
-the bands of all sources. Makes
+    f"""Power of {OURS} and {OTHERS} at fixed frame rates, the memory in self-refresh between frames, at the
+high ends of all bands in power-down; without and with PHY and controller of the memory. Makes
 
   frame_waterfall   energy of a frame of the first scene by component
   power_at_rate     watts at each rate, and the gain, by scene

@@ -51,6 +51,16 @@ CostResult machine_area(const MachineResult& machine, const Technology& technolo
   return area;
 }
 
+CostResult with_interface_if_counted(CostResult cost, const Band& interface,
+                                     const Technology& technology) {
+  if (technology.memory_interface.counted) add(cost, kMemoryInterface, interface);
+  return cost;
+}
+
+Totals totals_of(const CostResult& machine, const Band& interface) {
+  return {machine.total, machine.total + interface, interface};
+}
+
 // Area of all that leaks as logic does: parts, and memories in registers.
 Band leaking_area(const MachineResult& machine, const Technology& technology) {
   Band area = logic_area(machine, technology).total;
@@ -141,20 +151,48 @@ Band write_queue_energy_j(const FrameResult& frame, const SramUse& queue, const 
   return bursts * kPj * (model.read_pj(queue) + model.write_pj(queue));
 }
 
+Band memory_interface_j(const FrameResult& frame, const Technology& technology) {
+  const SramUse queues = write_queues(frame, technology);
+  const Band mw = priced_channels(frame, technology) * technology.memory_interface.mw +
+                  technology.sram.leakage_mw(queues);
+  return kMw * frame.time_s() * mw + write_queue_energy_j(frame, queues, technology.sram);
+}
+
+// Of machine and memory.
+CostResult frame_energy(const FrameResult& frame, const Technology& technology) {
+  const MachineResult& machine = frame.machine;
+  CostResult energy;
+  for (const Operations& work : machine.operations) {
+    add(energy, work.component, work.count * kPj * technology.part(work.kind).pj);
+  }
+  for (const SramUse& use : machine.sram_uses)
+    add(energy, component_of(use.name), access_energy_j(machine, use, technology.sram));
+  add(energy, "clock", kPj * clock_pj(frame, technology));
+  add_leakage(energy, machine, frame.time_s(), technology);
+  if (const MemoryResult& dram = frame.memory; dram.energy_not_stated.empty())
+    add(energy, "dram", {dram.energy_least_j, dram.energy_j, dram.energy_most_j});
+  return energy;
+}
+
+CostResult rest_energy(const FrameResult& frame, const Rest& rest, double seconds,
+                       const Technology& technology) {
+  CostResult energy;
+  add_leakage(energy, frame.machine, seconds, technology);
+  if (const DramEnergyBand& dram = rest.energy; dram.not_stated.empty())
+    add(energy, "dram", kPj * Band{dram.least_pj, dram.total_pj(), dram.most_pj});
+  return energy;
+}
+
 }  // namespace
 
 CostResult area_of(const FrameResult& frame, const Technology& technology) {
-  CostResult area = machine_area(frame.machine, technology);
-  if (technology.memory_interface.counted) {
-    add(area, kMemoryInterface, memory_interface_area(frame, technology));
-  }
-  return area;
+  return with_interface_if_counted(machine_area(frame.machine, technology),
+                                   memory_interface_area(frame, technology), technology);
 }
 
-AreaTotals area_totals(const FrameResult& frame, const Technology& technology) {
-  const Band machine = machine_area(frame.machine, technology).total;
-  const Band interface = memory_interface_area(frame, technology);
-  return {machine, machine + interface, interface};
+Totals area_totals(const FrameResult& frame, const Technology& technology) {
+  return totals_of(machine_area(frame.machine, technology),
+                   memory_interface_area(frame, technology));
 }
 
 CostResult area_by_owner(const FrameResult& frame, const Technology& technology) {
@@ -179,46 +217,35 @@ Band access_energy_j(const MachineResult& machine, const SramUse& use, const Sra
 }
 
 CostResult energy_of(const FrameResult& frame, const Technology& technology) {
-  const MachineResult& machine = frame.machine;
-  CostResult energy;
-  for (const Operations& work : machine.operations) {
-    add(energy, work.component, work.count * kPj * technology.part(work.kind).pj);
-  }
-  for (const SramUse& use : machine.sram_uses)
-    add(energy, component_of(use.name), access_energy_j(machine, use, technology.sram));
-  add(energy, "clock", kPj * clock_pj(frame, technology));
-  add_leakage(energy, machine, frame.time_s(), technology);
-  if (technology.memory_interface.counted) {
-    const SramUse queues = write_queues(frame, technology);
-    add(energy, kMemoryInterface,
-        kMw * frame.time_s() *
-                (priced_channels(frame, technology) * technology.memory_interface.mw +
-                 technology.sram.leakage_mw(queues)) +
-            write_queue_energy_j(frame, queues, technology.sram));
-  }
-  if (const MemoryResult& dram = frame.memory; dram.energy_not_stated.empty())
-    add(energy, "dram", {dram.energy_least_j, dram.energy_j, dram.energy_most_j});
-  return energy;
+  return with_interface_if_counted(frame_energy(frame, technology),
+                                   memory_interface_j(frame, technology), technology);
+}
+
+Totals energy_totals(const FrameResult& frame, const Technology& technology) {
+  return totals_of(frame_energy(frame, technology), memory_interface_j(frame, technology));
 }
 
 Band resting_interface_w(const FrameResult& frame, const Rest& rest, const Technology& technology) {
   const MemoryInterfaceCost& interface = technology.memory_interface;
   const double stands = rest.self_refresh();
-  const Band channel_mw =
+  Band channel_mw =
       (1 - stands) * interface.mw + stands * (interface.mm2 * technology.die.logic_leakage_mw_mm2);
+  channel_mw.high = std::max(channel_mw.high, interface.mw.high);
   return kMw * (priced_channels(frame, technology) * channel_mw +
                 technology.sram.leakage_mw(write_queues(frame, technology)));
 }
 
 CostResult rest_energy_of(const FrameResult& frame, const Rest& rest, double seconds,
                           const Technology& technology) {
-  CostResult energy;
-  add_leakage(energy, frame.machine, seconds, technology);
-  if (technology.memory_interface.counted)
-    add(energy, kMemoryInterface, seconds * resting_interface_w(frame, rest, technology));
-  if (const DramEnergyBand& dram = rest.energy; dram.not_stated.empty())
-    add(energy, "dram", kPj * Band{dram.least_pj, dram.total_pj(), dram.most_pj});
-  return energy;
+  return with_interface_if_counted(rest_energy(frame, rest, seconds, technology),
+                                   seconds * resting_interface_w(frame, rest, technology),
+                                   technology);
+}
+
+Totals rest_energy_totals(const FrameResult& frame, const Rest& rest, double seconds,
+                          const Technology& technology) {
+  return totals_of(rest_energy(frame, rest, seconds, technology),
+                   seconds * resting_interface_w(frame, rest, technology));
 }
 
 }  // namespace sgs

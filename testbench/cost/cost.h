@@ -21,12 +21,23 @@ struct CostResult {
 // Throws InputError for a part that the table has no row for.
 CostResult area_of(const FrameResult& frame, const Technology& technology);
 
-// The whole area in mm2, without and with PHY and controller of the memory's channels, whether the
-// table counts these or not; and these alone.
-struct AreaTotals {
+// A sum without and with PHY and controller of the memory's channels, whether the table counts
+// these or not; and these alone.
+struct Totals {
   Band without_memory_interface, with_memory_interface, memory_interface;
 };
-AreaTotals area_totals(const FrameResult& frame, const Technology& technology);
+inline Totals operator+(const Totals& a, const Totals& b) {
+  return {a.without_memory_interface + b.without_memory_interface,
+          a.with_memory_interface + b.with_memory_interface,
+          a.memory_interface + b.memory_interface};
+}
+inline Totals operator*(double factor, const Totals& a) {
+  return {factor * a.without_memory_interface, factor * a.with_memory_interface,
+          factor * a.memory_interface};
+}
+
+// Of the whole area in mm2.
+Totals area_totals(const FrameResult& frame, const Technology& technology);
 
 // Square millimetres of each owner, its on-chip memory included, and of PHY and controller of the
 // memory's channels (`memory_interface`). Throws InputError as above.
@@ -36,15 +47,19 @@ CostResult area_by_owner(const FrameResult& frame, const Technology& technology)
 // (`clock`); of leakage over the frame (`logic_leakage`, `sram_leakage`); and the memory's
 // (`dram`), none where that is not known. Throws InputError as above.
 CostResult energy_of(const FrameResult& frame, const Technology& technology);
+Totals energy_totals(const FrameResult& frame, const Technology& technology);
 
 // Power of PHY and controller between frames, whether the table counts them or not: while the
-// memory refreshes itself their clocks stand and they leak as logic does; else as in a frame.
+// memory refreshes itself their clocks stand and they leak as logic does; else as in a frame. High:
+// as in a frame all the time.
 Band resting_interface_w(const FrameResult& frame, const Rest& rest, const Technology& technology);
 
 // Joules between a frame and the next one, in which the machine's clock stands: leakage
 // (`logic_leakage`, `sram_leakage`), the memory's (`dram`) where it is known, and
 // `memory_interface` where the table counts it.
 CostResult rest_energy_of(const FrameResult& frame, const Rest& rest, double seconds,
+                          const Technology& technology);
+Totals rest_energy_totals(const FrameResult& frame, const Rest& rest, double seconds,
                           const Technology& technology);
 
 // Energy of all accesses of one use of on-chip memory, in joules.

@@ -10,16 +10,19 @@ struct FixedRate {
   bool held = false;  // the frame is done before the next one begins; else nothing below is known
   double rest_s = 0;
   double power_down_s = 0, self_refresh_s = 0;  // of the rest, as the memory's ranks spend it
+  // High: at least as in power-down, since a reader beside the machine keeps the memory from
+  // refreshing itself.
   CostResult rest_j;
-  Band energy_j;                          // of frame and rest
-  Band memory_interface_w;                // in the rest
-  bool memory_interface_counted = false;  // it is part of these joules
-  std::string memory_not_stated;          // as MemoryResult has it, of frame and rest
+  Band energy_j;                  // of frame and rest, as the table counts
+  Totals totals_j;                // the same
+  Band memory_interface_w;        // in the rest
+  std::string memory_not_stated;  // as MemoryResult has it, of frame and rest
   Band power_w() const { return per_s * energy_j; }
+  Totals totals_w() const { return per_s * totals_j; }
 };
 
-// energy_j: of the frame. dram: of its simulation. Throws InputError as energy_of().
-FixedRate at_rate(double per_s, const FrameResult& frame, const Band& energy_j,
-                  const DramConfig& dram, const Technology& technology);
+// dram: of the frame's simulation. Throws InputError as energy_of().
+FixedRate at_rate(double per_s, const FrameResult& frame, const DramConfig& dram,
+                  const Technology& technology);
 
 }  // namespace sgs

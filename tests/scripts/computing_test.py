@@ -597,9 +597,20 @@ class Power(unittest.TestCase):
 
     def view(self, **joules: float) -> dict:
         rest = self.energy(dram=1.0)
-        rates = [{"per_s": 60.0, "held": True, "rest": rest}, {"per_s": 90.0, "held": False}]
         area = {"fine": 1.0, "sram": 1.0, "total": 2.0}
         energy = self.energy(**joules)
+        # PHY and controller take 1, 2, 4 J of a frame and as much of a rest.
+        of_interface = {"low": 1, "middle": 2, "high": 4}
+        total = energy["bands"]["total_j"]
+        energy["with_memory_interface_j"] = {end: total[end] + j for end, j in of_interface.items()}
+        watts = {
+            end: 60 * (total[end] + rest["bands"]["total_j"][end] + 2 * j)
+            for end, j in of_interface.items()
+        }
+        rates = [
+            {"per_s": 60.0, "held": True, "rest": rest, "with_memory_interface_w": watts},
+            {"per_s": 90.0, "held": False},
+        ]
         return {
             "frame": {"fps": 70.0},
             "area_mm2": area,
@@ -609,17 +620,22 @@ class Power(unittest.TestCase):
 
     def test_a_rate_that_is_not_held_has_no_power(self):
         alone, at_60, at_90 = power.spent_by_rate(self.view(fine=2.0, dram=4.0))
-        self.assertEqual((alone.rate, alone.joules, alone.rest), (70, 6, 0))
-        self.assertEqual((at_60.joules, at_60.rest, at_60.low, at_60.high), (7, 1, 3.5, 21))
-        self.assertEqual(at_60.cells(), (7 / simulations.MJ, 1 / 7, 420, 210, 1260))
+        self.assertEqual((alone[0].rate, alone[0].middle, alone[0].rest), (70, 6, 0))
+        self.assertEqual((alone[1].low, alone[1].middle, alone[1].high), (4, 8, 22))
+        without = at_60[0]
+        self.assertEqual((without.middle, without.rest, without.low, without.high), (7, 1, 3.5, 21))
+        watts = (420, 210, 1260, 60 * 11, 60 * 5.5, 60 * 29)
+        self.assertEqual(power.cells(at_60), (7 / simulations.MJ, 1 / 7, *watts))
         self.assertIsNone(at_90)
         row = power.power_row("x", 90, at_90, at_60)
-        self.assertEqual(row[2:7], (None,) * 5)
-        self.assertEqual(row[-3:], (None,) * 3)
+        self.assertEqual(row[2:10], (None,) * 8)
+        self.assertEqual(row[-6:], (None,) * 6)
+        row = power.power_row("x", 60, at_60, at_60)
+        self.assertEqual((len(row), row[-6:]), (len(power.POWER_COLUMNS), (1,) * 6))
 
     def test_a_source_of_error_stands_at_one_end_in_both_machines(self):
         ours, others = (
-            power.spent_by_rate(self.view(fine=fine, dram=dram, clock=1.0))[0]
+            power.spent_by_rate(self.view(fine=fine, dram=dram, clock=1.0))[0][0]
             for fine, dram in ((2.0, 4.0), (4.0, 2.0))
         )
         self.assertEqual(power.gain_band(ours, ours), (1, 1, 1))
@@ -627,6 +643,11 @@ class Power(unittest.TestCase):
         self.assertEqual(
             power.gain_band(ours, others), (1, (2 + 6 + 1) / (1 + 12 + 1), (12 + 1 + 1) / 9)
         )
+
+    def test_the_memorys_interface_is_a_source_of_error_of_its_own(self):
+        ours, others = (power.spent_by_rate(self.view(fine=fine))[0][1] for fine in (2.0, 6.0))
+        # Least with logic at its low end and the interface at its high one.
+        self.assertEqual(power.gain_band(ours, others), (2, (3 + 4) / (1 + 4), (18 + 1) / (6 + 1)))
 
     def test_over_scenes_a_source_stands_at_one_end_as_well(self):
         """Two scenes whose logic and DRAM change places: what one loses the other one gains."""

@@ -224,7 +224,7 @@ TEST_CASE("configuration: a memory whose energy is not stated has none, and ever
   };
   const auto report = [&] { return Json::parse(std::ifstream(scratch.path("report.json"))); };
   const std::string still = run({"--view", "0", "--frame-rate", "90"});
-  CHECK_THAT(still, Contains(") mJ without the memory\n"));
+  CHECK_THAT(still, Contains(") mJ without the memory; "));
   CHECK_THAT(still, Contains(" W without the memory: ") && Contains(" >0.0"));
   const Json view = report()["views"][0];
   for (const Json& costs : {view["energy"], view["fixed_rates"][0]["rest"]}) {

@@ -164,6 +164,11 @@ TEST_CASE("fixed rate: of a view as of a path, and none that is not held") {
                         rate["rest"]["bands"]["total_j"][end].get<double>();
     CHECK(rate["energy_j"][end].get<double>() == Approx(both));
     CHECK(rate["power_w"][end].get<double>() == Approx(90 * both));
+    CHECK(rate["without_memory_interface_w"][end].get<double>() == Approx(90 * both));
+    const double interface = view["energy"]["with_memory_interface_j"][end].get<double>() -
+                             view["energy"]["without_memory_interface_j"][end].get<double>() +
+                             rest_s * rate["rest"]["memory_interface_w"][end].get<double>();
+    CHECK(rate["with_memory_interface_w"][end].get<double>() == Approx(90 * (both + interface)));
   }
   const double leakage_w =
       view["energy"]["sram_leakage_j"].get<double>() / view["frame"]["time_s"].get<double>();

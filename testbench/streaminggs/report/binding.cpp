@@ -194,7 +194,7 @@ Binding find_binding(const FrameResult& frame) {
   return binding;
 }
 
-Binding find_binding(const FrameResult& frame, const AreaTotals& area) {
+Binding find_binding(const FrameResult& frame, const Totals& area) {
   Binding binding = find_binding(frame);
   if (binding.remedy.known() && binding.remedy.key == frame.memory.remedy.key) {
     binding.advice += fmt::format(": twice as many add {} mm2 of PHY and controller",

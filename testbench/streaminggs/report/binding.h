@@ -50,7 +50,7 @@ Binding find_binding(const FrameResult& frame);
 
 // The same; where it advises more channels of the memory, it says what twice as many add to `area`,
 // the frame's.
-Binding find_binding(const FrameResult& frame, const AreaTotals& area);
+Binding find_binding(const FrameResult& frame, const Totals& area);
 
 // The same of a frame whose picture is empty: nothing of the configuration is to blame.
 Binding without_advice(Binding binding);

@@ -41,6 +41,16 @@ void visit_band(ReportVisitor& r, const Key& key, const char* unit, const Band& 
   });
 }
 
+// what: that is summed.
+void visit_totals(ReportVisitor& r, const std::string& suffix, const char* unit,
+                  const Totals& totals, const std::string& what) {
+  const std::string interface = " PHY and controller of the memory";
+  visit_band(r, Key(("without_memory_interface" + suffix).c_str()), unit,
+             totals.without_memory_interface, what + " without" + interface);
+  visit_band(r, Key(("with_memory_interface" + suffix).c_str()), unit, totals.with_memory_interface,
+             what + " with" + interface);
+}
+
 // Middle values, and beside them what the sources allow.
 void visit_costs(ReportVisitor& r, const CostResult& cost, const std::string& suffix,
                  const char* unit, const char* of_component, const char* of_total) {
@@ -105,6 +115,7 @@ void visit_energy(ReportVisitor& r, const ViewResult& view) {
   visit_costs(r, view.energy_j, "_j", "J",
               "Middle energy of a component: logic, a use of on-chip memory, clock, leakage, DRAM.",
               "Middle energy of the frame.");
+  visit_totals(r, "_j", "J", view.energy_totals_j, "Energy of the frame");
   r("mean_power_w", "W", "`energy.total_j` over the frame time.", view.mean_power_w());
   const bool known = view.run.memory.energy_not_stated.empty();
   r("memory_known", "bool",
@@ -133,11 +144,13 @@ void visit_fixed_rate(ReportVisitor& r, const FixedRate& rate) {
     rate.held);
   if (!r.has(rate.held)) return;
   r("memory_known", "bool",
-    "As `energy.memory_known`, of the rest, too. If not, this is without the memory where it is not "
+    "As `energy.memory_known`, of the rest, too. If not, this is without the memory where it is "
+    "not "
     "known.",
     rate.memory_not_stated.empty());
   visit_band(r, "energy_j", "J", rate.energy_j, "Energy of a frame and its rest");
   visit_band(r, "power_w", "W", rate.power_w(), "Power at this rate");
+  visit_totals(r, "_w", "W", rate.totals_w(), "Power at this rate");
   r.object("rest", [&] {
     r("time_s", "s", "Time from the end of the frame until the next one begins.", rate.rest_s);
     r("power_down_s", "s", "Of it in power-down, mean of the memory's ranks.", rate.power_down_s);
@@ -154,8 +167,7 @@ void visit_area(ReportVisitor& r, const ViewResult& view) {
   visit_costs(r, view.area_mm2, "", "mm2",
               "Middle area of a component; `sram` is all on-chip memory.",
               "Middle area of the machine.");
-  visit_band(r, "without_memory_interface", "mm2", view.area_totals_mm2.without_memory_interface);
-  visit_band(r, "with_memory_interface", "mm2", view.area_totals_mm2.with_memory_interface);
+  visit_totals(r, "", "mm2", view.area_totals_mm2, "Area of the machine");
   if (r.has(view.stated_area_mm2 > 0)) {
     r("stated", "mm2", "Area that is published for the machine's units and on-chip memories.",
       view.stated_area_mm2);

@@ -88,8 +88,11 @@ void print_energy(const ViewResult& v) {
                        1e3 * joules.high);
   };
   const bool known = dram.energy_not_stated.empty();
-  fmt::print("view {}: energy {}{}\n", v.view, in_mj(v.energy_j.total),
-             known ? ", of it DRAM " + in_mj(dram_j) : kWithoutMemory);
+  const Totals& totals = v.energy_totals_j;
+  fmt::print("view {}: energy {}{}; {} with PHY and controller\n", v.view,
+             in_mj(totals.without_memory_interface),
+             known ? ", of it DRAM " + in_mj(dram_j) : kWithoutMemory,
+             in_mj(totals.with_memory_interface));
 }
 
 void print_unknown_energy(const ViewResult& v) {
@@ -112,16 +115,20 @@ void print_fixed_rates(const ViewResult& v) {
                  rounded(rate.per_s), rounded(1e3 * v.run.time_s()));
       continue;
     }
+    const Totals watts = rate.totals_w();
+    const double frame_j = v.energy_totals_j.without_memory_interface.middle;
+    const double both_j = rate.totals_j.without_memory_interface.middle;
+    const char* memory = rate.memory_not_stated.empty() ? "" : kWithoutMemory;
     fmt::print(
         "view {}: at {} frames a second {} W{}: {} mJ a frame, {} mJ in {} ms of rest\n"
-        "  of the rest the memory is {} in self-refresh, {} in power-down; its PHY and controller "
-        "take {} W{}\n",
-        v.view, rounded(rate.per_s), rounded(rate.power_w()),
-        rate.memory_not_stated.empty() ? "" : kWithoutMemory,
-        rounded(1e3 * v.energy_j.total.middle), rounded(1e3 * rate.rest_j.total.middle),
-        rounded(1e3 * rate.rest_s), percent(rate.self_refresh_s / rate.rest_s),
-        percent(rate.power_down_s / rate.rest_s), rounded(rate.memory_interface_w),
-        rate.memory_interface_counted ? "" : ", not counted");
+        "  of the rest the memory is {} in self-refresh, {} in power-down; the band's high end is "
+        "all "
+        "in power-down\n"
+        "  with PHY and controller {} W{}: they take {} W in the rest\n",
+        v.view, rounded(rate.per_s), rounded(watts.without_memory_interface), memory,
+        rounded(1e3 * frame_j), rounded(1e3 * (both_j - frame_j)), rounded(1e3 * rate.rest_s),
+        percent(rate.self_refresh_s / rate.rest_s), percent(rate.power_down_s / rate.rest_s),
+        rounded(watts.with_memory_interface), memory, rounded(rate.memory_interface_w));
   }
 }
 

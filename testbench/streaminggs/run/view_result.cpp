@@ -124,6 +124,7 @@ ViewResult view_result(const PreparedScene& scene, const ViewJob& job, Reference
   view.binding = find_binding(view.run, view.area_totals_mm2);
   if (is_empty(view)) view.binding = without_advice(view.binding);
   view.energy_j = energy_of(view.run, technology);
+  view.energy_totals_j = energy_totals(view.run, technology);
   view.area_mm2 = area_of(view.run, technology);
   view.area_by_owner_mm2 = area_by_owner(view.run, technology);
   view.sram_model = technology.sram;
@@ -148,8 +149,7 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
   ViewResult view = view_result(scene, job, std::move(pictures), std::move(golden),
                                 std::move(judged), std::move(run), config.dram, technology);
   for (const double per_s : options.frame_rates) {
-    view.fixed_rates.push_back(
-        at_rate(per_s, view.run, view.energy_j.total, config.dram, technology));
+    view.fixed_rates.push_back(at_rate(per_s, view.run, config.dram, technology));
   }
   view.stated_area_mm2 = config.design->stated_area_mm2();
   view.equals_golden = equal;

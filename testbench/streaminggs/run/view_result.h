@@ -65,7 +65,7 @@ struct ViewResult : ReferencePictures, JudgedFrame {
   std::vector<LeftOut> left_out;
   Binding binding;
   CostResult energy_j, area_mm2, area_by_owner_mm2;
-  AreaTotals area_totals_mm2;
+  Totals area_totals_mm2, energy_totals_j;
   double stated_area_mm2 = 0;  // published for the machine; 0 where none is
   MemoryInterface memory_interface;
   SramModel sram_model;          // the model they were made with

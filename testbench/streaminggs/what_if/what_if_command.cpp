@@ -81,7 +81,7 @@ FrameResult run(const Base& base, const RunConfig& config, const Camera& camera,
 }
 
 Outcome outcome_of(const FrameResult& frame, const Technology& technology) {
-  const AreaTotals area = area_totals(frame, technology);
+  const Totals area = area_totals(frame, technology);
   return {frame.cycles,
           frame.memory.bus_bytes,
           energy_of(frame, technology).total.middle,

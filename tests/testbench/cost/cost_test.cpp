@@ -154,6 +154,9 @@ TEST_CASE("cost: between frames leakage goes on, the clock stands, the memory re
   // A quarter of the time as in a frame, for the rest as 0.5 mm2 of logic leak; four channels.
   const double watts = 4 * (0.25 * 17e-3 + 0.75 * 0.5 * 13e-3);
   CHECK(resting_interface_w(frame(), rest(), technology).middle == Approx(watts));
+  // High: as in a frame all the time, or as logic where that is more.
+  technology.memory_interface.mw.high = 60;
+  CHECK(resting_interface_w(frame(), rest(), technology).high == Approx(4 * 60e-3));
   technology.memory_interface.counted = true;
   const CostResult counted = rest_energy_of(frame(), rest(), 4e-6, technology);
   CHECK(of(counted, "memory_interface").middle == Approx(watts * 4e-6));
@@ -163,7 +166,7 @@ TEST_CASE("cost: between frames leakage goes on, the clock stands, the memory re
 TEST_CASE("cost: at a fixed rate a frame and its rest, or that the rate is not held") {
   const Technology technology = priced();
   const Band frame_j = energy_of(frame(), technology).total;
-  const FixedRate rate = at_rate(100, frame(), frame_j, DramConfig(), technology);
+  const FixedRate rate = at_rate(100, frame(), DramConfig(), technology);
   REQUIRE(rate.held);
   CHECK(rate.rest_s == Approx(0.01 - 2e-6));
   CHECK(rate.self_refresh_s == Approx(rate.rest_s).epsilon(1e-3));
@@ -175,12 +178,55 @@ TEST_CASE("cost: at a fixed rate a frame and its rest, or that the rate is not h
   CHECK(of(rate.rest_j, "logic_leakage").middle == Approx(3.0 * 13e-3 * (0.01 - 2e-6)));
   DramConfig awake;
   awake.between_frames = BetweenFrames::kByIdleCycles;
-  CHECK(of(at_rate(100, frame(), frame_j, awake, technology).rest_j, "dram").middle >
+  CHECK(of(at_rate(100, frame(), awake, technology).rest_j, "dram").middle >
         10 * of(rate.rest_j, "dram").middle);
-  CHECK(at_rate(5e5, frame(), frame_j, DramConfig(), technology).held);
-  const FixedRate late = at_rate(5.01e5, frame(), frame_j, DramConfig(), technology);
+  CHECK(at_rate(5e5, frame(), DramConfig(), technology).held);
+  const FixedRate late = at_rate(5.01e5, frame(), DramConfig(), technology);
   CHECK_FALSE(late.held);
   CHECK(late.rest_j.by_component.empty());
+}
+
+TEST_CASE("cost: at a fixed rate the band ends where the memory may not refresh itself") {
+  const auto memory = [](const char* memspec, BetweenFrames between) {
+    DramConfig dram;
+    dram.memspec = memspec;
+    dram.between_frames = between;
+    return of(at_rate(100, frame(), dram, priced()).rest_j, "dram");
+  };
+  for (const char* memspec : {"lpddr3_1600_4gb", "lpddr5_6400_8gb"}) {
+    INFO(memspec);
+    const Band asleep = memory(memspec, BetweenFrames::kSelfRefresh);
+    const Band down = memory(memspec, BetweenFrames::kPowerDown);
+    CHECK(down.low > asleep.low);
+    CHECK(down.middle > asleep.middle);
+    CHECK(asleep.high == down.high);
+    const Band standby = memory(memspec, BetweenFrames::kByIdleCycles);
+    CHECK(standby.high > down.high);
+  }
+}
+
+TEST_CASE("cost: joules with and without the memory's interface, whatever the table counts") {
+  Technology technology = priced();
+  technology.memory_interface.mw = {9, 17, 60};
+  for (const bool counted : {false, true}) {
+    technology.memory_interface.counted = counted;
+    const Totals frame_j = energy_totals(frame(), technology);
+    const FixedRate rate = at_rate(100, frame(), DramConfig(), technology);
+    for (double Band::*end : {&Band::low, &Band::middle, &Band::high}) {
+      CHECK(frame_j.without_memory_interface.*end == energy_of(frame(), priced()).total.*end);
+      const double interface = 4e-3 * technology.memory_interface.mw.*end;  // W of four channels
+      CHECK(frame_j.with_memory_interface.*end ==
+            Approx(frame_j.without_memory_interface.*end + 2e-6 * interface));
+      CHECK((counted ? frame_j.with_memory_interface : frame_j.without_memory_interface).*end ==
+            Approx(energy_of(frame(), technology).total.*end));
+      const Totals watts = rate.totals_w();
+      CHECK(watts.with_memory_interface.*end ==
+            Approx(watts.without_memory_interface.*end +
+                   100 * (2e-6 * interface + rate.rest_s * rate.memory_interface_w.*end)));
+      CHECK((counted ? watts.with_memory_interface : watts.without_memory_interface).*end ==
+            Approx(rate.power_w().*end));
+    }
+  }
 }
 
 TEST_CASE("cost: what of the memory is not known is no part of a frame's joules, or of a rest's") {
@@ -193,8 +239,8 @@ TEST_CASE("cost: what of the memory is not known is no part of a frame's joules,
   Rest resting = rest();
   resting.energy.not_stated = "idd6";
   CHECK(rest_energy_of(frame(), resting, 4e-6, technology).by_component.size() == 2);
-  CHECK(at_rate(100, frame(), {}, DramConfig(), technology).memory_not_stated.empty());
-  CHECK(at_rate(100, unknown, {}, DramConfig(), technology).memory_not_stated == "currents");
+  CHECK(at_rate(100, frame(), DramConfig(), technology).memory_not_stated.empty());
+  CHECK(at_rate(100, unknown, DramConfig(), technology).memory_not_stated == "currents");
 }
 
 TEST_CASE("cost: leakage lasts as long as the frame") {
@@ -232,7 +278,7 @@ TEST_CASE("cost: area with and without the memory's interface, whatever the tabl
   technology.memory_interface.mm2 = {0.25, 0.5, 1};
   for (const bool counted : {false, true}) {
     technology.memory_interface.counted = counted;
-    const AreaTotals totals = area_totals(frame(), technology);
+    const Totals totals = area_totals(frame(), technology);
     CHECK(totals.without_memory_interface.middle == area_of(frame(), priced()).total.middle);
     CHECK(totals.with_memory_interface.low == Approx(1.5 + 16.384 + 4 * 0.25));
     CHECK(totals.with_memory_interface.middle == Approx(3 + 16.384 + 4 * 0.5));

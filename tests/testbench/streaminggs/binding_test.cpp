@@ -57,7 +57,7 @@ TEST_CASE("binding: the memory's buses are one of the resources") {
 }
 
 TEST_CASE("binding: more channels are advised with what they cost") {
-  AreaTotals area;
+  Totals area;
   area.memory_interface = {3, 5, 8};
   const auto advice = [&](double bus) {
     return find_binding(frame_of({activity("unit", 800)}, bus), area).advice;
