@@ -184,9 +184,7 @@ def ratios(results: Results) -> Made:
     left.set_title("Speed-up")
     right.set_title("Energy, baseline over machine")
     legend_above(figure, left)
-    return figure, (
-        f"Behind each name its GB/s. Diamond: published. From {data.made}"
-    )
+    return figure, (f"Behind each name its GB/s. Diamond: published. From {data.made}")
 
 
 def cases_of(data: Data) -> list[tuple[str, str]]:
@@ -362,9 +360,14 @@ def group_size(results: Results) -> Made:
 
 
 def of_memories(results: Results) -> Made:
-    """A panel for each scene, a line for each memory over its channels, a colour for its family."""
+    """A panel for each scene, a line for each memory over its channels, a colour for its family.
+    Memories without joules are named below."""
     columns = ("memory", "channels", "scene", "frames/s", "mJ")
-    data = results.table("compare_memories", "results.py compare_memories", columns)
+    table = results.table("compare_memories", "results.py compare_memories", columns)
+    unknown = list(dict.fromkeys(row["memory"] for row in table.rows if not row["mJ"]))
+    data = Data(tuple(row for row in table.rows if row["memory"] not in unknown), table.made)
+    if not data.rows:
+        raise Missing(f"{data.made}: no memory whose energy is known")
     figure, all_axes = panels(len(data.different("scene")), width=4.2, height=3.4, across=2)
     members: dict[str, list[str]] = {}
     for memory in data.different("memory"):
@@ -373,7 +376,7 @@ def of_memories(results: Results) -> Made:
         for number_of, family in enumerate(members.values()):
             colour = line_style(number_of)["color"]
             for at, memory in enumerate(family):
-                rows = [row for row in data.where(scene=scene, memory=memory) if row["mJ"]]
+                rows = data.where(scene=scene, memory=memory)
                 rate, mj = ([number(row[column]) for row in rows] for column in ("frames/s", "mJ"))
                 axes.plot(rate, mj, label=memory, **line_style(at) | {"color": colour})
                 sizes = [20 * number(row["channels"]) for row in rows]
@@ -383,7 +386,8 @@ def of_memories(results: Results) -> Made:
         from_zero(axes)
     legend_above(figure, all_axes[0])
     channels = ", ".join(data.different("channels"))
-    return figure, f"Larger marks: more channels ({channels}). From {data.made}"
+    said = f"Not drawn, no energy is known: {', '.join(unknown)}. " if unknown else ""
+    return figure, f"Larger marks: more channels ({channels}). {said}From {data.made}"
 
 
 def headline(results: Results) -> Made:

@@ -186,6 +186,19 @@ TABLES["waterfall"] = (
     grid("preset", ("exact", "gscore"), "mJ of", ("fine", "pixel_state", "all")),
     ("exact: mJ of a frame", "pixel state", "all", "5.00 (6.00 .. 7.00)"),
 )
+TABLES["compare_memories"] = (
+    "compare_memories",
+    names(variants.MEMORY_COLUMNS),
+    [
+        {"memory": memory, "channels": channels, "scene": "truck", "mJ": mj}
+        for memory, mj in (("lpddr3_known", "2"), ("lpddr9_unknown", ""), ("hbm9_unknown", ""))
+        for channels in ("1", "2")
+    ],
+    (
+        *("truck: mJ of a frame", "lpddr3_known", "more channels (1, 2)"),
+        "Not drawn, no energy is known: lpddr9_unknown, hbm9_unknown.",
+    ),
+)
 MACHINES = ("gscore", "exact", "GPU, modelled")
 TABLES |= {
     "compare_machines_rates": (
