@@ -15,7 +15,7 @@ from exploring.axes import Axis, Space, of_scene, parse_axes, parse_axis, read_p
 from runs import simulations
 from runs.scenes import REPOSITORY, find_scene, find_scenes
 from runs.simulations import pareto_front
-from studies import cases, datapath, frame_costs, gates, power, variants
+from studies import areas, cases, datapath, frame_costs, gates, power, variants
 
 
 class Pareto(unittest.TestCase):
@@ -657,6 +657,60 @@ class Power(unittest.TestCase):
         for cell in row[1:4]:
             self.assertAlmostEqual(cell, 1)
         self.assertAlmostEqual(row[4], (2 + 6) / (1 + 12))
+
+
+class Areas(unittest.TestCase):
+    ROWS = {
+        "lane": {"mm2": {"middle": 100e-6}, "register_bits": 64},
+        "comparator": {"mm2": {"middle": 10e-6}, "register_bits": 0},
+        "exchange_bit": {"mm2": {"middle": 2e-6}, "register_bits": 0},
+        "clock_gate": {"mm2": {"middle": 3e-6}, "register_bits": 0},
+    }
+    VIEW = {
+        "config": {"rendering": {"clusters": 2}},
+        "provenance": {"configuration": "mine"},
+        "datapath": {
+            "subtile_blend": {
+                "lane": "lane",
+                "lanes": 8,
+                "beside": {"comparator": {"parts": 4, "operations": 9}},
+                "used": {"macs": 24, "interval_cycles": 4},
+            }
+        },
+        "ledger": {
+            "lines": [
+                {"what": "sorting: comparator", "per_cycle": 20},
+                {"what": "sorting: exchange_bit", "per_cycle": 700},
+                {"what": "key sorters: reads", "per_cycle": 1},
+            ]
+        },
+        "area_mm2": {
+            **{"ccu": 2.3, "lists": 0.2, "qsu": 0.1, "bsu": 0.3, "rendering": 2.53},
+            **{"sram": 1.0, "memory_path": 0.1, "total": 5.53},
+        },
+    }
+
+    def test_of_a_pixel_a_cycle(self):
+        area, ours = areas.blend_row(self.VIEW, self.ROWS)
+        # 8 lanes with 2 gates each and 4 comparators; 2 x 16 pixels every 4 cycles.
+        self.assertAlmostEqual(area, (8 * (100 + 2 * 3) + 40) / 8)
+        self.assertIn("mine: 1.5 multiply-accumulates on lane", ours)
+
+    def test_of_a_compare_exchange(self):
+        area, ours = areas.sorting_row(self.VIEW, self.ROWS)
+        self.assertAlmostEqual(area, 2 * 10 + 70 * 2)  # 10 of them
+        self.assertIn("keys of 64 bits, places of 6", ours)
+
+    def test_beside_gscore(self):
+        rows = {part: of for part, *of in areas.gscore_rows(self.VIEW)}
+        self.assertEqual(rows["VRUs"], [2.53, 2.53, 0])
+        self.assertAlmostEqual(rows["CCUs"][2], 1)
+        self.assertEqual(rows["tile tests, lists"], [0.2, None, None])
+        self.assertAlmostEqual(rows["QSUs, BSUs"][0], 0.4)
+        self.assertEqual(rows["all"][2], 0)
+        parts = sum(of for _, _, of in areas.GSCORE_PARTS[:-1] if of)
+        self.assertAlmostEqual(parts, areas.GSCORE_PARTS[-1][2])
+        self.assertAlmostEqual(areas.TO_32NM * 3.95, areas.GSCORE_PARTS[-1][2], places=2)
 
 
 class Reports(unittest.TestCase):
