@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from collections.abc import Iterable, Mapping
 
 import tables
@@ -66,6 +67,15 @@ AREA_COLUMNS = (
     Column("um2 each", "as published", "um2", ",.0f"),
     Column("here, um2 each", "by the technology table", "um2", ",.0f"),
     Column("what of ours", "is beside it"),
+)
+
+SHARED_COLUMNS = (
+    PRESET,
+    Column("datapath", "that is folded: its lanes begin an item once in some cycles"),
+    Column("copies", "of it"),
+    Column("register bits", "between the lanes of a copy, as charged", "", ",.0f"),
+    Column("more, not shared", "if each value had registers of its own", "", "+.0%"),
+    Column("mm2 more", "of all copies, with clock gates", "mm2", ".3f"),
 )
 
 
@@ -155,6 +165,22 @@ def published_rows(single: dict, half: dict, technology: dict) -> list[tuple]:
     ]
 
 
+def sharing_rows(preset: str, view: dict, technology: dict) -> list[tuple]:
+    """An item writes each of its values into as many registers as it would have alone."""
+    rows = []
+    for name, datapath in view["datapath"].items():
+        used, bits = datapath["used"], datapath["beside"].get("register_bit")
+        if used["interval_cycles"] == 1 or not bits:
+            continue
+        copies = datapath["lanes"] // math.ceil(used["macs"] / used["interval_cycles"])
+        more = bits["operations"] - bits["parts"] / copies
+        area = um2([("register_bit", copies * more)], technology["parts"]) * 1e-6
+        rows.append(
+            (preset, name, copies, bits["parts"] / copies, more * copies / bits["parts"], area)
+        )
+    return rows
+
+
 def add_preset_arguments(to: run_arguments.Parser) -> None:
     run_arguments.add_scenes(to, SCENE)
     run_arguments.add_side_by_side(to)
@@ -182,8 +208,15 @@ def make_presets(arguments: argparse.Namespace) -> None:
     tables.write(
         arguments.out, "gscore_area", by, GSCORE_COLUMNS, gscore_rows(views["gscore"]), about
     )
-    rows = published_rows(views["exact"], views["paper"], read_json(TECHNOLOGY))
+    technology = read_json(TECHNOLOGY)
+    rows = published_rows(views["exact"], views["paper"], technology)
     tables.write(arguments.out, "published_areas", by, AREA_COLUMNS, rows)
+    rows = [
+        row
+        for preset in ("exact", "gscore_lossless")
+        for row in sharing_rows(preset, views[preset], technology)
+    ]
+    tables.write(arguments.out, "registers_shared", by, SHARED_COLUMNS, rows)
 
 
 PRESETS_STUDY = Study(
@@ -193,6 +226,7 @@ PRESETS_STUDY = Study(
   presets          area, cycles, bytes, energy and quality, without and with PHY and controller
   gscore_area      area of the preset gscore by part, beside GSCore's
   published_areas  areas that StreamingGS states, of one lane, pixel or compare-exchange, beside ours
+  registers_shared register bits between lanes, and how many more there were if no values shared any
 """,
     ("results.py presets",),
     add_preset_arguments,

@@ -701,6 +701,26 @@ class Areas(unittest.TestCase):
         self.assertAlmostEqual(area, 2 * 10 + 70 * 2)  # 10 of them
         self.assertIn("keys of 64 bits, places of 6", ours)
 
+    def test_registers_that_are_shared(self):
+        technology = {"parts": {**self.ROWS, "register_bit": self.ROWS["lane"]}}
+        folded = {"parts": 120, "operations": 90}
+        datapaths = {
+            "folded": {
+                "lanes": 6,
+                "beside": {"register_bit": folded},
+                "used": {"macs": 11, "interval_cycles": 4},
+            },
+            "a lane a step": {
+                "lanes": 6,
+                "beside": {"register_bit": folded},
+                "used": {"macs": 3, "interval_cycles": 1},
+            },
+        }
+        (row,) = areas.sharing_rows("mine", {"datapath": datapaths}, technology)
+        # Two copies of three lanes.
+        self.assertEqual(row[:5], ("mine", "folded", 2, 60, 0.5))
+        self.assertAlmostEqual(row[5], 60 * (100 + 2 * 3) * 1e-6)
+
     def test_beside_gscore(self):
         rows = {part: of for part, *of in areas.gscore_rows(self.VIEW)}
         self.assertEqual(rows["VRUs"], [2.53, 2.53, 0])
