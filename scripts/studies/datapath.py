@@ -147,6 +147,7 @@ def verilog_in(*folders: str) -> tuple[pathlib.Path, ...]:
 
 
 VERILOG = verilog_in("modules/datapath/rtl", "modules/streaminggs/rendering/rtl")
+SELECTION = verilog_in("modules/datapath/rtl/selection")
 SORTING = verilog_in("modules/streaminggs/sorting/rtl")
 MERGE = verilog_in("modules/streaminggs/merge/rtl")
 TECHNOLOGY = REPOSITORY / "testbench" / "cost" / "technology_32nm.json"
@@ -176,7 +177,7 @@ Parts = tuple[tuple[str, float], ...]  # kinds and how many
 @dataclasses.dataclass(frozen=True)
 class Module:
     """top, parameters: in Verilog. charged: parts of the ledger, or the datapath of `exact` that
-    has them beside so many lanes. rest: the charged part that has what the others leave of the
+    has them beside so many lanes. done: operations in a cycle, if not one of each part. rest: the charged part that has what the others leave of the
     module. published: what published constants have for it. apart: modules
     in it that are counted by themselves. interval: cycles that its input `phase` counts. sources:
     what is read with it; mappers choose by order, so another file there moves a number."""
@@ -191,10 +192,24 @@ class Module:
     interval: int = 1
     sources: tuple[pathlib.Path, ...] = VERILOG
     rest: str = ""
+    done: Parts = ()
 
 
 def one(kind: str) -> Parts:
     return ((kind, 1),)
+
+
+def choice(levels: int) -> Module:
+    """Of 2^levels words. A word passes a multiplexer on each level."""
+    words = 1 << levels
+    return Module(
+        f"choice of {words} words",
+        "choice",
+        (("select_bit", 32 * (words - 1)), ("register_bit", levels)),
+        done=(("select_bit", 32 * levels), ("register_bit", levels)),
+        parameters=parameters(WORDS=words, SELECT_BITS=levels),
+        sources=SELECTION,
+    )
 
 
 def parameters(**values: int) -> tuple[str, ...]:
@@ -258,6 +273,9 @@ MODULES = (
         (("register_bit", 32),),
         parameters(WIDTH=32),
     ),
+    # Inputs of lanes: of a blend, of filters.
+    choice(levels=2),
+    choice(levels=5),
     # Of the rendering cluster: its lanes have rows of their own.
     Module("a comparison alone", "less_or_equal", one("number_comparator"), one("comparator")),
     Module("column of a sub-tile", "subtile_column", ()),
@@ -486,7 +504,7 @@ def charged_as(module: Module, datapaths: Mapping[str, dict]) -> tuple[Parts, Pa
     """Parts of the ledger, and their operations in a cycle. datapaths: of a report."""
     if isinstance(module.charged, str):
         return beside_lanes(datapaths[module.charged], module.lanes)
-    return module.charged, module.charged
+    return module.charged, module.done or module.charged
 
 
 def known_pj(known: Sequence[Mapped]) -> list[float]:
@@ -653,7 +671,7 @@ def make_synthesis(arguments: argparse.Namespace) -> None:
         for library in libraries:
             mapped += of_clock(library)
     program = arguments.streaminggs
-    by = tables.made(program, [program_provenance(program)], [*VERILOG, *SORTING, *MERGE, *paths])
+    by = tables.made(program, [program_provenance(program)], [*VERILOG, *SELECTION, *SORTING, *MERGE, *paths])
     tables.write(arguments.out, "synthesis", by, SYNTHESIS_COLUMNS, [each.row() for each in mapped])
     run = simulations.Run(find_scene(SMALL_SCENE), config="exact")
     datapaths = simulations.simulate(program, run).accepted()[0]["datapath"]

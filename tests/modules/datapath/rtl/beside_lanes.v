@@ -29,7 +29,11 @@ module beside_lanes (
     output [15:0] constant_half,
     output [15:0] linear_half,
     input [7:0] power,
-    output [15:0] scaled_half
+    output [15:0] scaled_half,
+    input clock,
+    input [1:0] select,
+    input [127:0] choices,
+    output [31:0] chosen
 );
   comparator compare (
       .operation(operation),
@@ -109,5 +113,14 @@ module beside_lanes (
       .x(half),
       .whole(power),
       .scaled(scaled_half)
+  );
+  choice #(
+      .WORDS(4),
+      .SELECT_BITS(2)
+  ) choose (
+      .clock(clock),
+      .select(select),
+      .words(choices),
+      .chosen(chosen)
   );
 endmodule

@@ -1,4 +1,6 @@
 // Comparators, rounding and look-ups in Verilog beside the functions that units call: every bit.
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
@@ -46,6 +48,17 @@ class Parts {
     module_->other_half = b;
     module_->eval();
     return *module_;
+  }
+  std::uint32_t chosen(const std::array<std::uint32_t, 4>& words, std::uint32_t which) {
+    module_->select = static_cast<std::uint8_t>(which);
+    for (const int clock : {0, 1}) {
+      module_->clock = static_cast<std::uint8_t>(clock);
+      module_->eval();
+    }
+    module_->select = static_cast<std::uint8_t>(which ^ 3U);  // of the next cycle
+    std::copy(words.begin(), words.end(), std::begin(module_->choices.m_storage));
+    module_->eval();
+    return module_->chosen;
   }
   const Vbeside_lanes& now() const { return *module_; }
 
@@ -177,6 +190,14 @@ TEST_CASE("half scale: every half between 1/2 and 4 by every power") {
         FAIL(x.value() << " 2^" << power);
       }
     }
+  }
+}
+
+TEST_CASE("choice: each of the words, a cycle after it is selected") {
+  Parts parts;
+  const std::array<std::uint32_t, 4> words = {0x01234567, 0x89ABCDEF, 0, ~0U};
+  for (const std::uint32_t which : {0U, 3U, 1U, 2U, 0U, 1U}) {
+    CHECK(parts.chosen(words, which) == words[which]);
   }
 }
 
