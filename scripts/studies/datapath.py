@@ -205,8 +205,8 @@ def choice(levels: int) -> Module:
     return Module(
         f"choice of {words} words",
         "choice",
-        (("select_bit", 32 * (words - 1)), ("register_bit", levels)),
-        done=(("select_bit", 32 * levels), ("register_bit", levels)),
+        (("select_bit", 32 * (words - 1)), ("register_bit", words)),
+        done=(("select_bit", 32 * levels), ("register_bit", words)),
         parameters=parameters(WORDS=words, SELECT_BITS=levels),
         sources=SELECTION,
     )
