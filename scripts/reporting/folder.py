@@ -235,7 +235,10 @@ VIEW = {
         "bytes_by_region": Each(Each({"read?": NUMBER, "write?": NUMBER})),
         "bus_bytes_by_region": Each(NUMBER),
     },
-    "energy": {**numbers("total_j", "mean_power_w"), "memory_known?": FLAG, **BANDS},
+    "energy": {
+        **{**numbers("total_j", "mean_power_w"), "memory_known?": FLAG, **BANDS},
+        "with_memory_interface_j?": numbers("low", "middle", "high"),
+    },
     "area_mm2": {
         **{**numbers("total"), **BANDS},
         "with_memory_interface?": numbers("low", "middle", "high"),

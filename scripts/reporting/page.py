@@ -29,6 +29,16 @@ def mm2_with_phy(view: dict) -> str:
     return number(band["middle"]) if band else ""
 
 
+def mj_with_phy(view: dict) -> str:
+    band = view["energy"].get("with_memory_interface_j")
+    return number(1e3 * band["middle"]) if band else ""
+
+
+def and_with_phy(amount: str, unit: str) -> str:
+    """Words behind an amount; none where it is empty."""
+    return f"; {amount} {unit} with PHY and controller of the memory" if amount else ""
+
+
 def of_the_model(view: dict) -> str:
     """How the picture stands to the streaming renderer's."""
     return f"{'bit for bit' if view['image']['equals_streaming_renderer'] else 'NOT'} the model's"
@@ -37,7 +47,6 @@ def of_the_model(view: dict) -> str:
 def key_numbers(view: dict) -> str:
     frame, image, dram, energy = view["frame"], view["image"], view["dram"], view["energy"]
     area = view["area_mm2"]
-    more = mm2_with_phy(view)
     joules, squares = energy["bands"]["total_j"], area["bands"]["total"]
     cards = (
         ("frames a second", rate(frame["fps"]), f"{number(frame['cycles'])} cycles"),
@@ -56,14 +65,13 @@ def key_numbers(view: dict) -> str:
             "energy",
             f"{number(1e3 * energy['total_j'])} mJ{costs.without_memory(view)}",
             f"{number(1e3 * joules['low'])} .. {number(1e3 * joules['high'])} mJ; "
-            f"{number(energy['mean_power_w'])} W",
+            f"{number(energy['mean_power_w'])} W" + and_with_phy(mj_with_phy(view), "mJ"),
         ),
         (
             "area",
             f"{number(area['total'])} mm²",
             f"{number(squares['low'])} .. {number(squares['high'])} mm², "
-            f"{view['provenance']['technology']}"
-            + (f"; {more} mm² with PHY and controller of the memory" if more else ""),
+            f"{view['provenance']['technology']}" + and_with_phy(mm2_with_phy(view), "mm²"),
         ),
         (
             "binds",

@@ -54,6 +54,12 @@ class Page(WithFrames):
                 self.assertHolds(page, f"{view['frame']['cycles']:,} cycles")
                 self.assertHolds(page, charts.escaped(view["binding"]["explanation"]))
                 self.assertHolds(page, charts.escaped(view["provenance"]["command"]))
+                for band, times, unit in (
+                    (view["energy"]["with_memory_interface_j"], 1e3, "mJ"),
+                    (view["area_mm2"]["with_memory_interface"], 1, "mm²"),
+                ):
+                    amount = charts.number(times * band["middle"])
+                    self.assertHolds(page, f"; {amount} {unit} with PHY and controller of the")
                 for region in view["dram"]["bytes_by_region"]:
                     self.assertHolds(page, f"<th scope=row>{region.replace('_', ' ')}</th>")
                 for entry in view["left_out"]:
