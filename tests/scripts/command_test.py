@@ -58,9 +58,9 @@ class WithTheCommand(InFolder):
             (
                 COMPARE_MACHINES,
                 ("--sizes", "64x36", "--object-sizes", "64x36", "--channels", "4")
-                + ("--machines", "gscore_lossless", "exact", "--view", "0"),
+                + ("--machines", "gscore_lossless_boxes", "exact", "--view", "0"),
                 {"| truck | 64x36 | 25.6 | exact |": 2, "| 102.4 | GPU, modelled |": 2}
-                | {"| exact | gscore_lossless | fp32 | 62.3 | 62.3 | 1 | 1 |": 1}
+                | {"| exact | gscore_lossless_boxes | fp32 | 62.3 | 62.3 | 1 | 1 |": 1}
                 | {"| exact | GPU, modelled | fp32 | 62.3 |  | 1 | 1 |": 1}
                 | {"| frame_buffer |": 1},
             ),

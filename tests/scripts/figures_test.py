@@ -183,8 +183,11 @@ TABLES["headline"] = (
 TABLES["waterfall"] = (
     "frame_waterfall",
     names(frame_costs.COMPONENT_COLUMNS),
-    grid("preset", ("exact", "gscore"), "mJ of", ("fine", "pixel_state", "all")),
-    ("exact: mJ of a frame", "pixel state", "all", "5.00 (6.00 .. 7.00)"),
+    [
+        row | {"least mJ": 4}
+        for row in grid("preset", ("exact", "gscore"), "mJ of", ("fine", "pixel_state", "all"))
+    ],
+    ("exact: mJ of a frame", "pixel state", "all", "5.00 (4.00 .. 7.00)"),
 )
 TABLES["compare_memories"] = (
     "compare_memories",
