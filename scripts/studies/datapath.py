@@ -386,7 +386,8 @@ NODE_ABOUT = (
     "Middle: the geometric mean of those mapped to be fast, at 75 %. "
     "Time: the most depth; a FO4 at 32 nm is 11.5 ps, slow 16 ps; a register takes 5. "
     "Energy, settled and with glitches: the library's x 32 nm over its gates' length x the square "
-    "of 0.9 V over its voltage. Operands are new and random in every cycle. No wires, no layout, "
+    "of 0.9 V over its voltage. Operands are new and random in every cycle, but for the words of a choice: they "
+    "stand, and which one is chosen is new. No wires, no layout, "
     "no clock, but in the last rows: clock pins with a wire to each and buffers. "
     "pJ, low to high: the published energy of a multiplication and an addition times "
     "what the module takes, settled, over what the lane that only chains takes in the same "
@@ -414,10 +415,24 @@ class Mapped:
         return (self.library, self.module.name, self.mapping, *sizes, *self.pj, self.node_pj[0])
 
 
+def sources_of(module: Module) -> list[pathlib.Path]:
+    """Of the top and what stands below it: the numbers that Yosys gives to nets, and so the gates,
+    follow from all that it reads. A file is named after its module."""
+    files = {path.stem: path for path in module.sources}
+    found: set[str] = set()
+    ahead = [module.top]
+    while ahead:
+        name = ahead.pop()
+        if name in files and name not in found:
+            found.add(name)
+            ahead += re.findall(r"\w+", re.sub("//.*", "", files[name].read_text()))
+    return [files[name] for name in sorted(found)]
+
+
 def in_gates(module: Module, folder: pathlib.Path) -> pathlib.Path:
     """Its logic in gates of no library; what is counted apart is beyond its ports. Raises
     ValueError, Failure."""
-    sources = " ".join(map(str, module.sources))
+    sources = " ".join(map(str, sources_of(module)))
     set_all = "".join(f"chparam -set {p} {module.top}; " for p in module.parameters)
     black = f"blackbox {' '.join(module.apart)}; " if module.apart else ""
     beyond = "".join(f"expose -evert t:{name}; " for name in module.apart)

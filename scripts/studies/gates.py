@@ -223,6 +223,7 @@ def in_order(gates: Sequence[Gate]) -> list[Gate]:
 
 
 FIXED = ("clock", "reset", "unrounded", "phase")  # inputs that are not random
+STANDING = ("words",)  # those that are random and stay: registers that wait to be chosen
 
 NODE_NM = 32
 
@@ -399,6 +400,11 @@ def random_word(bits: int) -> int:
     return word & 0x83FF | random.randint(11, 19) << 10 if bits == 16 else word
 
 
+def random_words(bits: int) -> list[int]:
+    """For each run."""
+    return [random_word(bits) for _ in range(RUNS)]
+
+
 def switched(library: Library, modules: dict, interval: int) -> tuple[float, float]:
     """pJ a cycle of random operands, settled and with glitches; lanes round their products. An
     input `phase` counts the cycles of an interval."""
@@ -406,6 +412,7 @@ def switched(library: Library, modules: dict, interval: int) -> tuple[float, flo
     netlist = netlist_of(module, library.cells, library.register)
     random.seed(1)
     ports = [(n, p["bits"]) for n, p in module["ports"].items() if p["direction"] == "input"]
+    standing = {n: random_words(len(bits)) for n, bits in ports if n in STANDING}
 
     def inputs(cycle: int) -> Values:
         values: Values = {}
@@ -413,7 +420,7 @@ def switched(library: Library, modules: dict, interval: int) -> tuple[float, flo
             if name in FIXED:
                 words = [cycle % interval if name == "phase" else 0] * RUNS
             else:
-                words = [random_word(len(bits)) for _ in range(RUNS)]
+                words = standing.get(name) or random_words(len(bits))
             for at, bit in enumerate(bits):
                 values[bit] = sum((word >> at & 1) << run for run, word in enumerate(words))
         return values

@@ -25,7 +25,6 @@ OTHER_MEANINGS: dict[tuple[str, float], str] = {
     # Operands that a longest path is looked for with.
     ("modules/streaminggs/vsu/vsu_datapaths.cpp", 2.1): "a position",
     ("modules/streaminggs/vsu/vsu_datapaths.cpp", 3.1): "a position",
-    ("modules/datapath/group_numbers.cpp", 190): "a frame's height",
     # Places, sizes and colours in the built-in scenes.
     ("testbench/builtin/buildings.cpp", 1.15): "half of a flag's width",
     ("testbench/builtin/buildings.cpp", 3.1): "half of a house's length",
