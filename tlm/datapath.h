@@ -29,6 +29,7 @@ struct Datapath {
   std::string name;       // what it does to an item: "coarse", "chunk_test"
   std::string component;  // whose square millimetres and joules
   std::string lane;       // row of the technology table: "fp32_lane", "fp16_lane"
+  std::string lanes_of;   // datapath whose lanes these are, idle meanwhile; empty: lanes of its own
   // Lanes that serve one item, each a multiply-accumulate a cycle, and how often these stand there,
   // side by side.
   std::uint32_t lanes = 1, copies = 1;

@@ -62,14 +62,15 @@ void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& 
                 span_pipeline(part, single), flows.span.longest_path(single), single, 0, chosen);
   // The conic's lanes stand ahead of the queues: their latency comes on top.
   const Datapath blend = blend_pipeline(part, blending);
+  const std::uint32_t state_access =
+      kReadCycles + kWriteCycles +
+      part.write_wait_cycles(kReadCycles + blend.loop_cycles + kWriteCycles);
   resolve_depth("rendering.depth_cycles", rendering.depth_cycles, blend,
                 flows.subtile_blend.longest_path(blending), blending,
-                terms + conic_pipeline(part, single).depth_cycles + kReadCycles + kWriteCycles,
-                chosen);
+                terms + conic_pipeline(part, single).depth_cycles + state_access, chosen);
   take("rendering.state_loop_cycles", rendering.state_loop_cycles, blend.loop_cycles,
        "subtile_blend, from a pixel's state on",
-       longest_loop(flows.subtile_blend.steps(blending), blending), blending,
-       kReadCycles + kWriteCycles, chosen);
+       longest_loop(flows.subtile_blend.steps(blending), blending), blending, state_access, chosen);
   if (rendering.state_loop_cycles > rendering.depth_cycles) {
     throw InputError(
         fmt::format("rendering.state_loop_cycles: got {}, expected at most {}, "

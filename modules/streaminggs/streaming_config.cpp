@@ -77,6 +77,7 @@ void check(const StreamingConfig& c, const StorageConfig& storage) {
         "{}: got {}, expected a multiple of {}{}", key, px, step,
         c.parts() == 1 ? "" : fmt::format(": each of {} HFUs has its part of a group", c.parts())));
   }
+  check(c.rendering);
   const std::uint32_t record_bytes = built_for(c, storage).first_half_bytes;
   if (c.hfu.slice_gaussians * record_bytes % 32 != 0) {
     throw InputError(fmt::format(

@@ -65,7 +65,8 @@ class Collector : public LeftOutCollector {
     for (std::size_t part = 0; part < values.size(); ++part) same->values[part] += values[part];
   }
   void datapath(const Datapath& path, std::uint64_t items) override {
-    part(path.component.c_str(), path.lane.c_str(), static_cast<double>(path.all_lanes()), 1);
+    const double own_lanes = path.lanes_of.empty() ? static_cast<double>(path.all_lanes()) : 0;
+    part(path.component.c_str(), path.lane.c_str(), own_lanes, 1);
     operations(path.component.c_str(), path.lane.c_str(),
                static_cast<double>(items) * path.used_macs);
     for (const BesideLanes& beside : path.beside) {

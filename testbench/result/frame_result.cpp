@@ -70,8 +70,8 @@ void serialize(Archive& a, BetweenLanes& r) {
 }
 template <class Archive>
 void serialize(Archive& a, Datapath& r) {
-  a(r.name, r.component, r.lane, r.lanes, r.copies, r.used_macs, r.counted_macs, r.published_macs,
-    r.counts, r.beside, r.between, r.set_bits, r.depth_cycles, r.loop_cycles);
+  a(r.name, r.component, r.lane, r.lanes_of, r.lanes, r.copies, r.used_macs, r.counted_macs,
+    r.published_macs, r.counts, r.beside, r.between, r.set_bits, r.depth_cycles, r.loop_cycles);
 }
 template <class Archive>
 void serialize(Archive& a, DatapathResult& r) {

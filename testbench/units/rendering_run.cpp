@@ -18,11 +18,14 @@ namespace {
 
 std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; }
 
-// Least cycles to drain a row of pixels: a bank gives one sub-tile a cycle, and the pixels that are
-// converted are limited.
+bool has_one_port(const RenderingPlan& plan) { return plan.config.pixel_ports == SramPorts::kOne; }
+
+// Least cycles to drain a row of pixels: a bank gives one sub-tile a cycle, or with one port is
+// cleared of it, and the pixels that are converted are limited.
 std::uint64_t row_cycles(const RenderingPlan& plan, std::uint64_t width) {
-  return std::max(ceil_div(width, plan.config.drain_pixels_per_cycle),
-                  ceil_div(ceil_div(width, 4), plan.config.clusters));
+  return std::max(
+      ceil_div(width, plan.config.drain_pixels_per_cycle),
+      (has_one_port(plan) ? 2 : 1) * ceil_div(ceil_div(width, 4), plan.config.clusters));
 }
 
 // Draining converts several pixels at once. Each place among them meets at most this many memories
@@ -246,11 +249,14 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   checks.equal(bench.accesses("begun spans").second, spanned, "begun spans: writes");
   bench.check_accesses("spans", spans, spans);
   bench.check_accesses("splats under way", taken, taken);
-  // The splat whose rows go out stands in registers, and the row of pixels that is written next; a
-  // pixel that is drained comes from its place's share of all memories of pixels.
-  bench.check_operations(
-      "rendering", "register_bit",
-      8 * kSplatEntryBytes * taken + 8 * pixel_bytes(plan.job.frame_format) * pixels);
+  // The splat whose rows go out stands in registers, and the row of pixels that is written next,
+  // and what waits for the only port; a pixel that is drained comes from its place's share of all
+  // memories of pixels.
+  const std::uint64_t late_bits = has_one_port(plan) ? 8 * plan.config.pixel_state_bytes() : 0;
+  bench.check_operations("rendering", "register_bit",
+                         8 * kSplatEntryBytes * taken +
+                             8 * pixel_bytes(plan.job.frame_format) * pixels +
+                             late_bits * 16 * blends);
   const std::uint64_t of_place = memories_of_a_place(plan);
   if (of_place > 1) {
     bench.check_operations(

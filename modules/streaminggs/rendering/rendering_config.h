@@ -8,8 +8,15 @@
 #include "modules/config/config_visitor.h"
 #include "modules/datapath/lane_steps.h"
 #include "tlm/datapath.h"
+#include "tlm/sram_use.h"
 
 namespace sgs {
+
+// Lanes that convert finished pixels.
+enum class DrainLanes : std::uint8_t {
+  kOwn,
+  kOfClusters  // clusters stand still while the one group on chip drains
+};
 
 struct RenderingConfig {
   std::uint32_t clusters = 4;
@@ -22,7 +29,10 @@ struct RenderingConfig {
   std::uint32_t span_depth_cycles = 0;
   std::uint32_t drain_depth_cycles = 0;
   std::uint32_t pixel_buffers = 2;
+  // One port: a cluster reads a pixel in one cycle of its turn, and writes it in another.
+  SramPorts pixel_ports = SramPorts::kReadAndWrite;
   std::uint32_t drain_pixels_per_cycle = 8;
+  DrainLanes drain_lanes = DrainLanes::kOwn;
   bool ellipse_test = true;
   std::uint32_t begin_lanes = 24, span_lanes = 40;
   std::uint32_t span_slots = 16;
@@ -41,8 +51,11 @@ struct RenderingConfig {
   std::uint32_t span_interval_cycles() const;
   // Sub-tiles of one cluster that can be in the loop through the pixel state at once.
   std::uint32_t subtiles_in_loop() const;
-  // Cycles from a row of pixels of so many sub-tiles to the next, in draining: a bank gives one
-  // word a cycle.
+  // Cycles that a blend's write waits, so late in the loop of a pixel's state, for a cycle in which
+  // no blend of the cluster reads.
+  std::uint32_t write_wait_cycles(std::uint32_t loop_cycles) const;
+  // Cycles from a row of pixels of so many sub-tiles to the next, in draining: a port gives one
+  // word a cycle, or clears the one that it gave before.
   std::uint32_t drain_row_cycles(std::uint32_t px) const;
   // Bytes of state a pixel: R, G, B and transmittance.
   std::uint32_t pixel_state_bytes() const { return in_16_bits(precision) ? 8 : 16; }
@@ -73,8 +86,14 @@ inline void visit(ConfigVisitor& v, RenderingConfig& c) {
     "latency of a finished pixel's conversion; 0: by its schedule");
   v("pixel_buffers", c.pixel_buffers, in_range(1, 2),
     "groups whose pixels are on chip; 2: one drains while the next is blended");
+  v("pixel_ports", c.pixel_ports,
+    names<SramPorts>({{"one", SramPorts::kOne}, {"read_and_write", SramPorts::kReadAndWrite}}),
+    "of a memory of pixels; one: clusters read and write in different cycles of a sub-tile");
   v("drain_pixels_per_cycle", c.drain_pixels_per_cycle, in_range(1, 4096),
     "finished pixels converted a cycle");
+  v("drain_lanes", c.drain_lanes,
+    names<DrainLanes>({{"own", DrainLanes::kOwn}, {"clusters", DrainLanes::kOfClusters}}),
+    "MAC lanes that convert them; clusters: theirs, which are idle while the one group drains");
   v("ellipse_test", c.ellipse_test, "sub-tiles that a splat's ellipse cannot reach are skipped");
   v("begin_lanes", c.begin_lanes, in_range(1, 4096),
     "MAC lanes that begin to find the sub-tiles of an ellipse");
@@ -88,6 +107,9 @@ inline void visit(ConfigVisitor& v, RenderingConfig& c) {
   v("input_fifo_entries", c.input_fifo_entries, in_range(1, 4096),
     "sorted splats waiting from each sorting unit");
 }
+
+// Throws InputError: a port or lanes that would be wanted twice in a cycle.
+void check(const RenderingConfig& config);
 
 // Counted by running the code (modules/datapath/rendering_flows.h): the lanes that every splat
 // passes ahead of the clusters' queues, one a cycle; the lanes of all clusters, an item a sub-tile;

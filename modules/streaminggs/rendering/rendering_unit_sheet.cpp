@@ -71,6 +71,7 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
   const auto width = static_cast<std::uint32_t>(built_for.group.width);
   const auto height = static_cast<std::uint32_t>(built_for.group.height);
   const std::uint32_t banks = pixel_banks(config, built_for.group);
+  const std::uint32_t writes_beside = config.pixel_ports == SramPorts::kOne ? 0 : banks;
   const SramPeak of_clusters{config.clusters, config.clusters};
   return {
       sram_use("pixel state", kSharedSram,
@@ -78,7 +79,7 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
                 {width, "px"},
                 {height, "px"},
                 {config.pixel_state_bytes(), "B"}},
-               {8 * config.pixel_state_bytes(), SramPorts::kReadAndWrite, banks}, {banks, banks}),
+               {8 * config.pixel_state_bytes(), config.pixel_ports, banks}, {banks, writes_beside}),
       sram_use("splats under way", kSharedSram,
                {{config.span_slots, "slots"}, {kSplatEntryBytes, "B"}}, {8 * kSplatEntryBytes},
                kOneOfEach),
@@ -162,6 +163,13 @@ void RenderingUnit::publish_pixels(DataSheet& sheet) {
     pixels += width * height;
   }
   const std::uint64_t blends = schedule_.counters().subtile_blends;
+  if (config_.pixel_ports == SramPorts::kOne) {
+    // A pixel's new state waits for the port.
+    const double bits = 8.0 * config_.pixel_state_bytes();
+    sheet.part("rendering", "register_bit", bits * pixel_banks(config_, built_for_.group), 1);
+    sheet.operations("rendering", "register_bit",
+                     bits * kSubtilePixels * static_cast<double>(blends));
+  }
   const auto passed = static_cast<double>(pixels);
   publish_selection(sheet, "rendering",
                     {drain_sources(config_, built_for_.group), 8.0 * config_.pixel_state_bytes(),

@@ -130,6 +130,9 @@ void visit_datapath(ReportVisitor& r, const DatapathResult& result) {
   };
   r("lane", "", "Kind of its lanes: a row of the technology table.", d.lane);
   r("lanes", "", "Lanes of all copies.", d.all_lanes());
+  if (r.has(!d.lanes_of.empty())) {
+    r("lanes_of", "", "Datapath whose lanes these are, which is idle meanwhile.", d.lanes_of);
+  }
   r("items", "", "Items that passed them in this frame.", result.items);
   r.object("counts", [&] {
     r.each(d.counts, [&](const auto& count) {

@@ -183,8 +183,9 @@ void print_lanes(const ViewResult& v) {
   for (const auto& [d, items, busiest] : v.run.machine.datapaths) {
     const std::string published =
         d.published_macs > 0 ? fmt::format(" {} published,", d.published_macs) : "";
-    fmt::print("{}: {} lanes ({}); multiply-accumulates each: {} counted,{} {} charged\n", d.name,
-               d.all_lanes(), d.lane, d.counted_macs, published, d.used_macs);
+    const std::string of = d.lanes_of.empty() ? "" : " of " + d.lanes_of;
+    fmt::print("{}: {} lanes{} ({}); multiply-accumulates each: {} counted,{} {} charged\n", d.name,
+               d.all_lanes(), of, d.lane, d.counted_macs, published, d.used_macs);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <deque>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include "tests/modules/clocked/clocked_fifo.h"
@@ -21,6 +22,7 @@ struct RenderingHardware {
   std::uint32_t begin_interval = 7, begin_depth = 77, rows_at_once = 1, row_interval = 2;
   std::uint32_t row_depth = 39, slots = 48;
   std::uint32_t pixel_buffers = 1, drain_depth = 10;
+  bool one_port = false;  // of a memory of pixels
   PortHardware port = {};
 };
 
@@ -77,6 +79,7 @@ class ClockedRendering {
     for (Cluster& cluster : clusters_) {
       cluster.busy -= cluster.busy > 0 ? 1 : 0;
       cluster.visible = cluster.queue.size();
+      write(cluster);
     }
     for (std::uint32_t& left : loop_) left -= left > 0 ? 1 : 0;
     for (std::uint32_t& left : known_in_) left -= left > 0 && left != kNever ? 1 : 0;
@@ -93,6 +96,7 @@ class ClockedRendering {
     std::deque<ClockedReach> queue;
     std::size_t visible = 0;  // entries that were there at the last edge
     std::uint32_t busy = 0;
+    std::deque<std::uint32_t> writes;  // of blends under way: cycles left
   };
   struct Slot {
     RenderingItem item;
@@ -127,11 +131,23 @@ class ClockedRendering {
     cluster.queue.pop_front();
     cluster.busy = hw_.blend_interval;
     loop_[reach.at] = hw_.state_loop;
+    cluster.writes.push_back(hw_.state_loop - 1);
     if (!reach.finishes) return;
     known_in_[reach.at] = hw_.depth;
     if (--unfinished_ == 0) {
       finished_groups_.push_back({static_cast<std::uint32_t>(group_), now_ + hw_.depth});
     }
+  }
+
+  // In the last cycle of the loop; a blend that begins in this cycle has the only port.
+  void write(Cluster& cluster) {
+    const bool writes = !cluster.writes.empty() && cluster.writes.front() == 0;
+    const bool reads = !cluster.writes.empty() && cluster.writes.back() == hw_.state_loop - 1;
+    if (hw_.one_port && reads && writes) {
+      throw std::logic_error("a memory of pixels is read and written in one cycle");
+    }
+    if (writes) cluster.writes.pop_front();
+    for (std::uint32_t& left : cluster.writes) --left;
   }
 
   void take(std::vector<ClockedFifo<RenderingItem>>& in) {

@@ -44,6 +44,7 @@ RenderingConfig config_of(const RenderingHardware& hw) {
   config.drain_depth_cycles = hw.drain_depth;
   config.span_slots = hw.slots;
   config.pixel_buffers = hw.pixel_buffers;
+  config.pixel_ports = hw.one_port ? SramPorts::kOne : SramPorts::kReadAndWrite;
   config.drain_pixels_per_cycle = kDrainPixels;
   const auto lanes = [](std::uint32_t macs, std::uint32_t interval) {
     return (macs + interval - 1) / interval;
@@ -55,6 +56,7 @@ RenderingConfig config_of(const RenderingHardware& hw) {
   REQUIRE(config.begin_interval_cycles() == hw.begin_interval);
   REQUIRE(config.span_interval_cycles() == hw.row_interval);
   REQUIRE(config.spans_at_once() == hw.rows_at_once);
+  REQUIRE(config.write_wait_cycles(hw.state_loop) == 0);
   return config;
 }
 
@@ -158,13 +160,15 @@ RenderingItem item_of(const SplatToken& token, GroupState& state, std::uint32_t 
   return item;
 }
 
+// A cluster's port gives the row's pixels of a sub-tile; the only one then clears them.
 DrainedGroup drained(const StreamingJob& job, const PixelRect& pixels, std::uint32_t subtiles,
-                     std::uint32_t clusters) {
+                     const RenderingHardware& hw) {
   DrainedGroup group;
   group.subtiles = subtiles;
   const auto width = static_cast<std::uint32_t>(pixels.width());
-  group.row_cycles = std::max((width + kDrainPixels - 1) / kDrainPixels,
-                              ((width + 3) / 4 + clusters - 1) / clusters);
+  const std::uint32_t accesses = ((width + 3) / 4 + hw.clusters - 1) / hw.clusters;
+  group.row_cycles =
+      std::max((width + kDrainPixels - 1) / kDrainPixels, (hw.one_port ? 2 : 1) * accesses);
   for (int y = pixels.y0; y < pixels.y1; ++y) {
     group.rows.push_back(
         {job.pixel_address(pixels.x0, y), std::uint64_t{width} * pixel_bytes(job.frame_format)});
@@ -180,7 +184,7 @@ Takings clocked_rendering(const RenderingWorkload& load, std::uint64_t seed) {
   for (const PixelRect& pixels : job.groups) {
     states.emplace_back(pixels, job.view.width, job.view.height);
     drains.push_back(drained(job, pixels, static_cast<std::uint32_t>(states.back().subtile_count()),
-                             load.hardware.clusters));
+                             load.hardware));
   }
   // What a splat finishes depends on those before it: they are drawn in the order of the groups.
   const auto tokens = tokens_of(load, groups);
@@ -235,6 +239,12 @@ TEST_CASE("clocked reference: rendering unit") {
   wide.queue_entries = 4;
   RenderingHardware two = exact;
   two.pixel_buffers = 2;
+  RenderingHardware one_port = exact;
+  one_port.one_port = true;
+  RenderingHardware one_port_in_two = one_port;
+  one_port_in_two.blend_interval = 2;
+  one_port_in_two.state_loop = 10;
+  one_port_in_two.clusters = 2;
   const PixelSize of_exact = preset_of<ExactConfig>("exact").group;
   for (const RenderingWorkload& load : {
            RenderingWorkload{"light: 20 splats a group", 20, 1, 1, 1, exact},
@@ -243,6 +253,8 @@ TEST_CASE("clocked reference: rendering unit") {
            RenderingWorkload{"input stalled", 150, 0.3F, 2, 200, exact},
            RenderingWorkload{"output stalled", 60, 1, 1, 1, late},
            RenderingWorkload{"two pixel buffers", 60, 1, 1, 1, two},
+           RenderingWorkload{"one port, three cycles a sub-tile", 300, 1, 1, 1, one_port},
+           RenderingWorkload{"one port, two cycles, two clusters", 300, 1, 1, 1, one_port_in_two},
            RenderingWorkload{"groups that finish", 150, 0.3F, 1, 1, exact, of_exact, 4, 20, true},
            RenderingWorkload{"tiny buffers", 150, 0.3F, 1, 1, tiny, of_exact, 1, 1},
            RenderingWorkload{"as of paper: a sub-tile a cycle, two rows a cycle", 300, 1, 1, 1,
@@ -250,6 +262,19 @@ TEST_CASE("clocked reference: rendering unit") {
        }) {
     table.workload(load, run_rendering, clocked_rendering);
   }
+}
+
+TEST_CASE("clocked reference: a blend's write in a cycle of reads") {
+  RenderingWorkload load{"one port, written too early", 300, 1, 1, 1, {}};
+  load.hardware.one_port = true;
+  load.hardware.state_loop = 10;  // read in cycles 0, 3, 6; written in 9
+  load.hardware.port = {preset_of<ExactConfig>("exact").port, 40, 20};
+  CHECK_THROWS_AS(clocked_rendering(load, 1), std::logic_error);
+  CHECK(config_of({}).write_wait_cycles(10) == 0);
+  RenderingConfig of_one = config_of({});
+  of_one.pixel_ports = SramPorts::kOne;
+  CHECK(of_one.write_wait_cycles(10) == 1);
+  CHECK(of_one.write_wait_cycles(11) == 0);
 }
 
 }  // namespace
