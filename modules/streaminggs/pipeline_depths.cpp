@@ -61,6 +61,13 @@ void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& 
   resolve_depth("rendering.span_depth_cycles", rendering.span_depth_cycles,
                 span_pipeline(part, single), flows.span.longest_path(single), single, 0, chosen);
   // The conic's lanes stand ahead of the queues: their latency comes on top.
+  if (rendering.pixel_ports == 0) {
+    rendering.pixel_ports = part.ports_of_pixels() == SramPorts::kOne ? 1 : 2;
+    chosen.push_back({ChoiceKind::kDerived, "rendering.pixel_ports",
+                      static_cast<double>(rendering.pixel_ports),
+                      fmt::format("a cluster begins a sub-tile every {} cycles",
+                                  part.cluster_interval_cycles())});
+  }
   const Datapath blend = blend_pipeline(part, blending);
   const std::uint32_t state_access =
       kReadCycles + kWriteCycles +

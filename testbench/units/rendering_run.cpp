@@ -18,7 +18,7 @@ namespace {
 
 std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; }
 
-bool has_one_port(const RenderingPlan& plan) { return plan.config.pixel_ports == SramPorts::kOne; }
+bool has_one_port(const RenderingPlan& plan) { return plan.config.pixel_ports == 1; }
 
 // Least cycles to drain a row of pixels: a bank gives one sub-tile a cycle, or with one port is
 // cleared of it, and the pixels that are converted are limited.

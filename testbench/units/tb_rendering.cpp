@@ -66,7 +66,7 @@ void random_case(Case& test) {
   plan.config.drain_depth_cycles = 1 + static_cast<std::uint32_t>(random() % 20);
   plan.config.precision = static_cast<BlendPrecision>(random() % 3);
   if (plan.config.cluster_interval_cycles() > 1 && random() % 2 == 0) {
-    plan.config.pixel_ports = SramPorts::kOne;
+    plan.config.pixel_ports = 1;
   }
   plan.arrival = random() % 2 == 0 ? Arrival::kByVisit : Arrival::kByToken;
   const BenchConfig bench = random_bench(random, memory_bytes(plan.job));

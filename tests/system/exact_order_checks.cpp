@@ -45,11 +45,8 @@ std::vector<std::string> random_exact_options(std::mt19937_64& random) {
   set("hfu.second_half_slots", between(1, 16));
   set("hfu.slice_gaussians", 4 * between(1, 32));  // of 16 or 24 B: whole bursts
   set("merge.output_fifo_entries", between(1, 4));
-  const std::uint64_t buffers = between(1, 2);
-  set("rendering.pixel_buffers", buffers);
-  const auto choose = [&](const char* choice) { options.insert(options.end(), {"--set", choice}); };
-  if (buffers == 2 || random() % 2 == 0) choose("rendering.drain_lanes=own");
-  if (random() % 2 == 0) choose("rendering.pixel_ports=read_and_write");
+  set("rendering.pixel_buffers", between(1, 2));
+  set("rendering.pixel_ports", between(0, 2));
   if (random() % 2 == 0) {
     options.insert(options.end(), {"--stalls", "0.02", "--seed", std::to_string(random() % 1000)});
   }

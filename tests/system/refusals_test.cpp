@@ -83,27 +83,19 @@ TEST_CASE("refusals: a pipeline shorter than its schedule, a loop longer than it
   }
   check_set_refused("exact", {"rendering.depth_cycles=60", "rendering.state_loop_cycles=61"},
                     {"rendering.state_loop_cycles: got 61, expected at most 60"});
-  // Two cycles a sub-tile: the write at the end of the loop waits for the cycle without reads.
+  // Four cycles a sub-tile: the write at the end of the loop waits for a cycle without reads.
   check_set_refused(
       "exact",
-      {"rendering.cluster_lanes=84", "rendering.pixel_ports=one", "rendering.state_loop_cycles=9"},
+      {"rendering.cluster_lanes=42", "rendering.pixel_ports=1", "rendering.state_loop_cycles=9"},
       {"rendering.state_loop_cycles: got 9, expected 10 or more"});
   check_set_refused("paper_no_vq", {"hfu.coarse_filter=false", "hfu.cfu_depth_cycles=99"},
                     {"hfu.cfu_depth_cycles: got 99 with hfu.coarse_filter=false", "expected 0"});
 }
 
-TEST_CASE("refusals: a port of pixels or lanes of clusters wanted twice in a cycle") {
-  check_set_refused("exact", {"rendering.cluster_lanes=167", "rendering.pixel_ports=one"},
-                    {"rendering.pixel_ports: got one with rendering.cluster_lanes 167",
-                     "expected read_and_write"});
+TEST_CASE("refusals: a port of pixels wanted twice in a cycle") {
   check_set_refused(
-      "exact", {"rendering.pixel_buffers=2", "rendering.drain_lanes=clusters"},
-      {"rendering.drain_lanes: got clusters with rendering.pixel_buffers 2", "expected own"});
-  check_set_refused("exact", {"rendering.precision=fp16", "rendering.drain_lanes=clusters"},
-                    {"rendering.drain_lanes: got clusters with 16 bits", "expected own"});
-  check_set_refused(
-      "exact", {"rendering.drain_lanes=clusters", "rendering.drain_pixels_per_cycle=38"},
-      {"rendering.drain_pixels_per_cycle: got 38, which take 228 lanes", "the clusters have 224"});
+      "exact", {"rendering.cluster_lanes=167", "rendering.pixel_ports=1"},
+      {"rendering.pixel_ports: got 1 with rendering.cluster_lanes 167", "expected 2"});
 }
 
 TEST_CASE("refusals: keys, types, ranges and combinations") {

@@ -81,7 +81,7 @@ Datapath blend_pipeline(const RenderingConfig& config, const OperationLatencies&
   path.copies = config.clusters;
   schedule(path, counted(config.precision).flows.subtile_blend.steps(latencies), latencies,
            in_half ? kHalfBits : kSingleBits);
-  if (config.drain_lanes == DrainLanes::kOfClusters) {
+  if (config.drains_on_clusters()) {
     // Before the operands of a lane that also converts pixels.
     const auto lanes =
         static_cast<std::uint32_t>(cycles_for(lanes_that_drain(config), config.clusters));
@@ -114,7 +114,7 @@ Datapath drain_pipeline(const RenderingConfig& config, FrameFormat format,
   path.lanes = path.used_macs;
   path.copies = config.drain_pixels_per_cycle;
   schedule(path, pixel_flow(format).steps(single), single);
-  if (config.drain_lanes == DrainLanes::kOfClusters) {
+  if (config.drains_on_clusters()) {
     path.lanes_of = "subtile_blend";
     path.between.selected += kOperandBits * path.used_macs;
   }
@@ -144,43 +144,33 @@ std::uint32_t RenderingConfig::subtiles_in_loop() const {
 
 std::uint32_t RenderingConfig::drain_row_cycles(std::uint32_t px) const {
   const std::uint64_t subtiles = cycles_for(px, kSubtilePx);
-  const std::uint64_t accesses = pixel_ports == SramPorts::kOne ? 2 : 1;
+  const std::uint64_t accesses = ports_of_pixels() == SramPorts::kOne ? 2 : 1;
   return static_cast<std::uint32_t>(
       std::max(cycles_for(px, drain_pixels_per_cycle), accesses * cycles_for(subtiles, clusters)));
 }
 
+SramPorts RenderingConfig::ports_of_pixels() const {
+  const bool one = pixel_ports == 1 || (pixel_ports == 0 && cluster_interval_cycles() > 1);
+  return one ? SramPorts::kOne : SramPorts::kReadAndWrite;
+}
+
+bool RenderingConfig::drains_on_clusters() const {
+  return drain_on_clusters && pixel_buffers == 1 && !in_16_bits(precision) &&
+         lanes_that_drain(*this) <= std::uint64_t{clusters} * cluster_lanes;
+}
+
 // A blend reads in the first cycle of the loop and writes in the last.
 std::uint32_t RenderingConfig::write_wait_cycles(std::uint32_t loop_cycles) const {
-  if (pixel_ports != SramPorts::kOne) return 0;
+  if (ports_of_pixels() != SramPorts::kOne) return 0;
   return (loop_cycles - 1) % cluster_interval_cycles() == 0 ? 1 : 0;
 }
 
 void check(const RenderingConfig& c) {
-  if (c.pixel_ports == SramPorts::kOne && c.cluster_interval_cycles() == 1) {
-    throw InputError(
-        fmt::format("rendering.pixel_ports: got one with rendering.cluster_lanes {}, expected "
-                    "read_and_write: a sub-tile begins in every cycle",
-                    c.cluster_lanes));
-  }
-  if (c.drain_lanes == DrainLanes::kOwn) return;
-  if (c.pixel_buffers > 1) {
-    throw InputError(
-        fmt::format("rendering.drain_lanes: got clusters with rendering.pixel_buffers {}, expected "
-                    "own: a group drains while the clusters blend the next",
-                    c.pixel_buffers));
-  }
-  if (in_16_bits(c.precision)) {
-    throw InputError(
-        "rendering.drain_lanes: got clusters with 16 bits in rendering.precision, expected own: "
-        "pixels are converted in single precision");
-  }
-  const std::uint64_t lanes = std::uint64_t{c.clusters} * c.cluster_lanes;
-  if (lanes_that_drain(c) > lanes) {
-    throw InputError(fmt::format(
-        "rendering.drain_pixels_per_cycle: got {}, which take {} lanes, expected fewer: "
-        "the clusters have {}",
-        c.drain_pixels_per_cycle, lanes_that_drain(c), lanes));
-  }
+  if (c.pixel_ports != 1 || c.cluster_interval_cycles() > 1) return;
+  throw InputError(
+      fmt::format("rendering.pixel_ports: got 1 with rendering.cluster_lanes {}, expected 2: a "
+                  "sub-tile begins in every cycle",
+                  c.cluster_lanes));
 }
 
 }  // namespace sgs

@@ -12,12 +12,6 @@
 
 namespace sgs {
 
-// Lanes that convert finished pixels.
-enum class DrainLanes : std::uint8_t {
-  kOwn,
-  kOfClusters  // clusters stand still while the one group on chip drains
-};
-
 struct RenderingConfig {
   std::uint32_t clusters = 4;
   std::uint32_t cluster_lanes = 167;
@@ -29,10 +23,9 @@ struct RenderingConfig {
   std::uint32_t span_depth_cycles = 0;
   std::uint32_t drain_depth_cycles = 0;
   std::uint32_t pixel_buffers = 2;
-  // One port: a cluster reads a pixel in one cycle of its turn, and writes it in another.
-  SramPorts pixel_ports = SramPorts::kReadAndWrite;
+  std::uint32_t pixel_ports = 2;
   std::uint32_t drain_pixels_per_cycle = 8;
-  DrainLanes drain_lanes = DrainLanes::kOwn;
+  bool drain_on_clusters = false;
   bool ellipse_test = true;
   std::uint32_t begin_lanes = 24, span_lanes = 40;
   std::uint32_t span_slots = 16;
@@ -51,6 +44,10 @@ struct RenderingConfig {
   std::uint32_t span_interval_cycles() const;
   // Sub-tiles of one cluster that can be in the loop through the pixel state at once.
   std::uint32_t subtiles_in_loop() const;
+  // With one port a cluster reads a pixel in one cycle of its turn, and writes it in another.
+  SramPorts ports_of_pixels() const;
+  // Finished pixels are converted on the clusters' lanes.
+  bool drains_on_clusters() const;
   // Cycles that a blend's write waits, so late in the loop of a pixel's state, for a cycle in which
   // no blend of the cluster reads.
   std::uint32_t write_wait_cycles(std::uint32_t loop_cycles) const;
@@ -86,14 +83,14 @@ inline void visit(ConfigVisitor& v, RenderingConfig& c) {
     "latency of a finished pixel's conversion; 0: by its schedule");
   v("pixel_buffers", c.pixel_buffers, in_range(1, 2),
     "groups whose pixels are on chip; 2: one drains while the next is blended");
-  v("pixel_ports", c.pixel_ports,
-    names<SramPorts>({{"one", SramPorts::kOne}, {"read_and_write", SramPorts::kReadAndWrite}}),
-    "of a memory of pixels; one: clusters read and write in different cycles of a sub-tile");
+  v("pixel_ports", c.pixel_ports, in_range(0, 2),
+    "of a memory of pixels; 2: a read and a write a cycle; 1: in different cycles of a sub-tile; "
+    "0: 1 where a cluster takes several cycles for one");
   v("drain_pixels_per_cycle", c.drain_pixels_per_cycle, in_range(1, 4096),
     "finished pixels converted a cycle");
-  v("drain_lanes", c.drain_lanes,
-    names<DrainLanes>({{"own", DrainLanes::kOwn}, {"clusters", DrainLanes::kOfClusters}}),
-    "MAC lanes that convert them; clusters: theirs, which are idle while the one group drains");
+  v("drain_on_clusters", c.drain_on_clusters,
+    "on the clusters' MAC lanes, where these are enough and idle meanwhile: with one pixel buffer, "
+    "in single precision");
   v("ellipse_test", c.ellipse_test, "sub-tiles that a splat's ellipse cannot reach are skipped");
   v("begin_lanes", c.begin_lanes, in_range(1, 4096),
     "MAC lanes that begin to find the sub-tiles of an ellipse");
@@ -108,7 +105,7 @@ inline void visit(ConfigVisitor& v, RenderingConfig& c) {
     "sorted splats waiting from each sorting unit");
 }
 
-// Throws InputError: a port or lanes that would be wanted twice in a cycle.
+// Throws InputError: a port that would be wanted twice in a cycle.
 void check(const RenderingConfig& config);
 
 // Counted by running the code (modules/datapath/rendering_flows.h): the lanes that every splat

@@ -71,37 +71,37 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
   const auto width = static_cast<std::uint32_t>(built_for.group.width);
   const auto height = static_cast<std::uint32_t>(built_for.group.height);
   const std::uint32_t banks = pixel_banks(config, built_for.group);
-  const std::uint32_t writes_beside = config.pixel_ports == SramPorts::kOne ? 0 : banks;
+  const std::uint32_t writes_beside = config.ports_of_pixels() == SramPorts::kOne ? 0 : banks;
   const SramPeak of_clusters{config.clusters, config.clusters};
-  return {
-      sram_use("pixel state", kSharedSram,
-               {{config.pixel_buffers, "groups"},
-                {width, "px"},
-                {height, "px"},
-                {config.pixel_state_bytes(), "B"}},
-               {8 * config.pixel_state_bytes(), config.pixel_ports, banks}, {banks, writes_beside}),
-      sram_use("splats under way", kSharedSram,
-               {{config.span_slots, "slots"}, {kSplatEntryBytes, "B"}}, {8 * kSplatEntryBytes},
-               kOneOfEach),
-      sram_use(kBegunSpans, kSharedSram, {{config.span_slots, "slots"}, {kBegunSpanBytes, "B"}},
-               {8 * kBegunSpanBytes}, kOneOfEach),
-      spans_use(config, built_for.group),
-      sram_use("cluster queues", kSharedSram,
-               {{config.clusters, "clusters"},
-                {config.cluster_queue_entries, "splats"},
-                {kSplatEntryBytes, "B"}},
-               {8 * kSplatEntryBytes, SramPorts::kReadAndWrite, config.clusters}, of_clusters),
-      mask_use(built_for.group),
-      outstanding_table(kSharedSram, built_for.memory_port),
-      sram_use("sub-tiles in the loop", kSharedSram,
-               {{config.clusters, "clusters"},
-                {config.subtiles_in_loop(), "sub-tiles"},
-                {kSubtileNumberBytes, "B"}},
-               {8 * kSubtileNumberBytes * config.subtiles_in_loop(), SramPorts::kReadAndWrite,
-                config.clusters},
-               of_clusters),
-      unanswered_writes("pixel writes", kSharedSram, built_for.memory_port,
-                        width * pixel_bytes(built_for.frame_format))};
+  return {sram_use("pixel state", kSharedSram,
+                   {{config.pixel_buffers, "groups"},
+                    {width, "px"},
+                    {height, "px"},
+                    {config.pixel_state_bytes(), "B"}},
+                   {8 * config.pixel_state_bytes(), config.ports_of_pixels(), banks},
+                   {banks, writes_beside}),
+          sram_use("splats under way", kSharedSram,
+                   {{config.span_slots, "slots"}, {kSplatEntryBytes, "B"}}, {8 * kSplatEntryBytes},
+                   kOneOfEach),
+          sram_use(kBegunSpans, kSharedSram, {{config.span_slots, "slots"}, {kBegunSpanBytes, "B"}},
+                   {8 * kBegunSpanBytes}, kOneOfEach),
+          spans_use(config, built_for.group),
+          sram_use("cluster queues", kSharedSram,
+                   {{config.clusters, "clusters"},
+                    {config.cluster_queue_entries, "splats"},
+                    {kSplatEntryBytes, "B"}},
+                   {8 * kSplatEntryBytes, SramPorts::kReadAndWrite, config.clusters}, of_clusters),
+          mask_use(built_for.group),
+          outstanding_table(kSharedSram, built_for.memory_port),
+          sram_use("sub-tiles in the loop", kSharedSram,
+                   {{config.clusters, "clusters"},
+                    {config.subtiles_in_loop(), "sub-tiles"},
+                    {kSubtileNumberBytes, "B"}},
+                   {8 * kSubtileNumberBytes * config.subtiles_in_loop(), SramPorts::kReadAndWrite,
+                    config.clusters},
+                   of_clusters),
+          unanswered_writes("pixel writes", kSharedSram, built_for.memory_port,
+                            width * pixel_bytes(built_for.frame_format))};
 }
 
 void RenderingUnit::publish_ledger(DataSheet& sheet) {
@@ -163,7 +163,7 @@ void RenderingUnit::publish_pixels(DataSheet& sheet) {
     pixels += width * height;
   }
   const std::uint64_t blends = schedule_.counters().subtile_blends;
-  if (config_.pixel_ports == SramPorts::kOne) {
+  if (config_.ports_of_pixels() == SramPorts::kOne) {
     // A pixel's new state waits for the port.
     const double bits = 8.0 * config_.pixel_state_bytes();
     sheet.part("rendering", "register_bit", bits * pixel_banks(config_, built_for_.group), 1);

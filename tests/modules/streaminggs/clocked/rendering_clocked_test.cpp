@@ -44,7 +44,7 @@ RenderingConfig config_of(const RenderingHardware& hw) {
   config.drain_depth_cycles = hw.drain_depth;
   config.span_slots = hw.slots;
   config.pixel_buffers = hw.pixel_buffers;
-  config.pixel_ports = hw.one_port ? SramPorts::kOne : SramPorts::kReadAndWrite;
+  config.pixel_ports = hw.one_port ? 1 : 2;
   config.drain_pixels_per_cycle = kDrainPixels;
   const auto lanes = [](std::uint32_t macs, std::uint32_t interval) {
     return (macs + interval - 1) / interval;
@@ -272,7 +272,7 @@ TEST_CASE("clocked reference: a blend's write in a cycle of reads") {
   CHECK_THROWS_AS(clocked_rendering(load, 1), std::logic_error);
   CHECK(config_of({}).write_wait_cycles(10) == 0);
   RenderingConfig of_one = config_of({});
-  of_one.pixel_ports = SramPorts::kOne;
+  of_one.pixel_ports = 1;
   CHECK(of_one.write_wait_cycles(10) == 1);
   CHECK(of_one.write_wait_cycles(11) == 0);
 }
