@@ -42,8 +42,8 @@ TEST_CASE("refusals: an SRAM budget that is broken, with the sum") {
   check_set_refused("paper", {"hfu.slice_gaussians=1024"},
                     {"sram.input_bytes: 16384 bytes are there", "2 slots x 1024 Gaussians"});
   check_set_refused("exact", {"hfus=8"},
-                    {"streaminggs: preset exact with --set hfus=8: sram.input_bytes: 3840 bytes "
-                     "are there, expected at least 7680, or 0 for as many as that: ",
+                    {"streaminggs: preset exact with --set hfus=8: sram.input_bytes: 7680 bytes "
+                     "are there, expected at least 15360, or 0 for as many as that: ",
                      "; --fit-memories sizes it\n"});
   check_set_refused("exact", {"sram.input_bytes=100", "hfus=8"},
                     {"streaminggs: --set sram.input_bytes=100: sram.input_bytes: 100 bytes"});
@@ -61,13 +61,13 @@ TEST_CASE("refusals: a pipeline shorter than its schedule, a loop longer than it
     int least;
   };
   for (const auto& [order, key, least] : {Row{"exact", "rendering.begin_depth_cycles", 77},
-                                          {"exact", "rendering.depth_cycles", 47},
-                                          {"exact", "rendering.state_loop_cycles", 9},
+                                          {"exact", "rendering.depth_cycles", 46},
+                                          {"exact", "rendering.state_loop_cycles", 8},
                                           {"exact", "rendering.span_depth_cycles", 39},
                                           {"exact", "rendering.drain_depth_cycles", 10},
-                                          {"exact", "hfu.cfu_depth_cycles", 128},
-                                          {"exact", "hfu.ffu_depth_cycles", 191},
-                                          {"exact", "vsu.test_depth_cycles", 191},
+                                          {"exact", "hfu.cfu_depth_cycles", 85},
+                                          {"exact", "hfu.ffu_depth_cycles", 160},
+                                          {"exact", "vsu.test_depth_cycles", 195},
                                           {"paper_no_vq", "vsu.step_depth_cycles", 43},
                                           {"paper_no_vq", "vsu.cell_step_depth_cycles", 12},
                                           {"paper_no_vq", "vsu.ray_depth_cycles", 86}}) {

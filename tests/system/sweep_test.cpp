@@ -337,7 +337,7 @@ TEST_CASE("sweep: what was simulated of another file of the same name counts no 
        {"true", "echo >>share/streaminggs/memspecs/lpddr3_1600_4gb.json",
         "echo >>share/streaminggs/technology_32nm.json", "sed -i s/-5/-6/ c.json",
         "$SG pack 'builtin:object?n=301' --out s.ply",
-        R"(sed -i 's/"entries": 512/"entries": 256/' share/streaminggs/presets/exact.json)"}) {
+        R"(sed -i 's/"entries": 768/"entries": 256/' share/streaminggs/presets/exact.json)"}) {
     INFO(change);
     const std::string sweep =
         "bin/streaminggs sweep s.ply --cameras c.json --axis hfus=2 --out r.jsonl; ";

@@ -121,7 +121,7 @@ TEST_CASE("clocked reference: VSU of exact order") {
            WalkWorkload{"no node on chip", 1500, 1, 1, bare},
            WalkWorkload{"a child every 29 cycles", 1500, 1, 1, narrow},
            WalkWorkload{"a child a cycle, operations of 2", 1500, 1, 1, fast},
-           WalkWorkload{"groups that finish", 3000, 1, 1, exact, 4, 4, {3000}, 14},
+           WalkWorkload{"groups that finish", 3000, 1, 1, exact, 4, 4, {3000}, 30},
        }) {
     table.workload(load, run_walk, clocked_walk, load.apart);
   }
