@@ -23,19 +23,30 @@ struct RenamingPlace {
   std::shared_ptr<const std::vector<std::byte>> contents;  // null: no such table
 };
 
-struct FrameJob {
+// What differs from frame to frame: the pose, and where the pixels go.
+struct Picture {
   View<float> view{};
-  glm::vec3 background{0.0F};
-  SceneLayout layout;  // the scene's regions, then those that the machine uses
   FrameFormat frame_format = FrameFormat::kRgb8;
-  RegionSpan spill;         // for data that the machine puts aside during the frame; may be empty
-  RenamingPlace renaming;   // empty where the machine has no such table
-  RegionSpan adjacency;     // for edges that its adjacency table has no room for; may be empty
   RegionSpan frame_buffer;  // rows from the top, pixels without padding
 
   std::uint64_t pixel_address(int x, int y) const {
     return frame_buffer.base +
            (static_cast<std::uint64_t>(y) * view.width + x) * pixel_bytes(frame_format);
+  }
+};
+
+// A frame, and those that follow it back to back.
+struct FrameJob : Picture {
+  glm::vec3 background{0.0F};
+  SceneLayout layout;      // the scene's regions, then those that the machine uses
+  RegionSpan spill;        // for data that the machine puts aside during the frame; may be empty
+  RenamingPlace renaming;  // empty where the machine has no such table
+  RegionSpan adjacency;    // for edges that its adjacency table has no room for; may be empty
+  std::vector<Picture> following;  // of the same size
+
+  std::uint32_t frames() const { return static_cast<std::uint32_t>(1 + following.size()); }
+  const Picture& picture(std::uint32_t frame) const {
+    return frame == 0 ? *this : following[frame - 1];
   }
 };
 

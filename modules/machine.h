@@ -2,12 +2,14 @@
 // sockets, and time; it says when the frame is done, and publishes its data sheet.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <systemc>
 #include <tlm>
 #include <vector>
 
+#include "modules/frame_host.h"
 #include "tlm/clock_domain.h"
 #include "tlm/data_sheet.h"
 #include "tlm/instant_end.h"
@@ -24,12 +26,15 @@ class Machine : public sc_core::sc_module {
   // requesters, whatever the order in which the kernel runs the units.
   sc_core::sc_vector<::tlm::tlm_initiator_socket<>> memory{"memory"};
 
+  // Where frames of a stream come from; unbound for a single frame.
+  FrameHostPort host{"host"};
+
   // Who asks at each of the sockets: the unit's path below the machine.
   const std::vector<std::string>& requesters() const { return requesters_; }
 
   virtual const ClockDomain& clock() const = 0;
 
-  // The last pixel has been handed to the memory.
+  // The last pixel of the last frame has been handed to the memory.
   bool done() const { return done_; }
 
   // Everything that its units say of themselves, in the order of the pipeline.
@@ -38,7 +43,10 @@ class Machine : public sc_core::sc_module {
  protected:
   explicit Machine(const sc_core::sc_module_name& name) : sc_module(name) {}
 
-  void finish_frame() { done_ = true; }
+  void finish_frame(std::uint32_t frame, bool last) {
+    done_ = last;
+    if (host.size() > 0) host->drawn(frame);
+  }
 
   // Binds the memory port of every unit that publish() shows to a socket of the machine, in that
   // order. The last thing that the constructor of a machine does.

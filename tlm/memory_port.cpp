@@ -80,6 +80,10 @@ void MemoryPort::wait_for(Ticket ticket) {
   }
 }
 
+void MemoryPort::wait_before(Ticket ticket) {
+  for (Ticket t = oldest_; t < ticket; ++t) wait_for(t);
+}
+
 void MemoryPort::wait_all() {
   while (outstanding_ > 0) {
     waiting_for_all_ = true;

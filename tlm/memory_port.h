@@ -98,7 +98,11 @@ class MemoryPort : public sc_core::sc_module {
   // Block the calling thread until all transactions of the ticket, or of the port, have answered.
   // Cost nothing when that is so already.
   void wait_for(Ticket ticket);
+  void wait_before(Ticket ticket);  // for all that were asked for before it
   void wait_all();
+
+  // What is asked for next has this ticket.
+  Ticket next() const { return next_; }
 
   bool idle() const { return outstanding_ == 0; }
   bool writing() const { return writes_outstanding_ > 0; }

@@ -38,14 +38,14 @@ class ChunkWalk {
  public:
   static constexpr std::uint32_t kWalks = 2;  // under way at a time
 
-  ChunkWalk(const View<float>& view, Source& source, const WalkRoom& room)
-      : view_(view), source_(source), nodes_(room.nodes), chunks_(room.chunks) {}
+  ChunkWalk(Source& source, const WalkRoom& room)
+      : source_(source), nodes_(room.nodes), chunks_(room.chunks) {}
 
-  // Begins with another group, behind those that have begun and not ended: at most kWalks. empty:
-  // the tree has no nodes.
-  void begin(const PixelRect& pixels, bool empty) {
+  // Begins with another group, behind those that have begun and not ended: at most kWalks. view:
+  // outlives the walk. empty: the tree has no nodes.
+  void begin(const View<float>& view, const PixelRect& pixels, bool empty) {
     const auto walk = static_cast<std::uint16_t>(first_ + begun_);
-    pixels_[walk % kWalks] = pixels;
+    groups_[walk % kWalks] = {&view, pixels};
     ++begun_;
     if (!empty) push({0, 0, 0, walk});
   }
@@ -185,7 +185,8 @@ class ChunkWalk {
 
   void expand(const WalkEntry& parent, const ChunkNode& node) {
     ++counters_.nodes;
-    const GroupFrustum frustum(view_, pixels_[parent.walk % kWalks]);
+    const Group& group = groups_[parent.walk % kWalks];
+    const GroupFrustum frustum(*group.view, group.pixels);
     std::uint32_t slot = node.first_slot, inner = node.first_node;
     for (int c = 0; c < node.children; ++c) {
       const std::uint16_t count = node.count[c];
@@ -227,10 +228,14 @@ class ChunkWalk {
     });
   }
 
-  const View<float>& view_;
+  struct Group {
+    const View<float>* view;
+    PixelRect pixels;
+  };
+
   Source& source_;
-  std::array<PixelRect, kWalks> pixels_{};  // by the walk's number modulo kWalks
-  std::uint16_t first_ = 0;                 // number of the first walk that has not ended
+  std::array<Group, kWalks> groups_{};  // by the walk's number modulo kWalks
+  std::uint16_t first_ = 0;             // number of the first walk that has not ended
   std::uint32_t begun_ = 0;
   WalkQueue nodes_, chunks_;
   std::vector<WalkEntry> opening_;  // nodes taken and not open yet

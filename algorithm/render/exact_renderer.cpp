@@ -128,8 +128,8 @@ void render_group(const View<float>& view, const ActivatedCloud& cloud, const Ch
                   StreamingStats& stats, RenderResult& frame) {
   stats.groups = 1;
   TreeInMemory source{tree, {}};
-  ChunkWalk walk(view, source, config.walk_room);
-  walk.begin(pixels, tree.nodes.empty());
+  ChunkWalk walk(source, config.walk_room);
+  walk.begin(view, pixels, tree.nodes.empty());
   GroupStream stream(view, cloud, known, pixels, config, contributing, stats);
   std::optional<WalkEntry> chunk = walk.next();
   while (chunk && !stream.saturated()) {

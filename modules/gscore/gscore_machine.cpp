@@ -63,7 +63,7 @@ GscoreMachine::GscoreMachine(const sc_core::sc_module_name& name, const GscoreCo
       config_(config),
       job_(job),
       clock_(config.clock_mhz, options.jitter_seed),
-      lister_("lister", context(), [this] { finish_frame(); }) {
+      lister_("lister", context(), [this] { finish_frame(0, true); }) {
   add_all_fifos(options);
   make_units();
   bind();

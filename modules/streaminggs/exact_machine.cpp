@@ -61,6 +61,7 @@ void ExactMachine::make_sorters(const ExactConfig& config) {
 }
 
 void ExactMachine::bind(OnOverflow on_overflow) {
+  vsu_.host(host);
   vsu_.finished(*finished_groups_[0]);
   merge_.finished(*finished_groups_[0]);
   vsu_.mask(on_overflow == OnOverflow::kSpill ? finished_subtiles_ : untold_);

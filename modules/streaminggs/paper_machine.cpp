@@ -46,6 +46,7 @@ void PaperMachine::make_sorters(const PaperConfig& config) {
 }
 
 void PaperMachine::bind(std::uint32_t lists_of_part) {
+  vsu_.host(host);
   for (const auto& finished : finished_groups_) vsu_.finished(*finished);
   for (std::size_t h = 0; h < hfus_.size(); ++h) {
     vsu_.shares(*visits_[h]);

@@ -34,7 +34,11 @@ void adapt(StreamingConfig& config, StorageOrder order, const SecondHalfFormat& 
 StreamingJob streaming_job(const StreamingConfig& config, const FrameJob& job) {
   StreamingJob out;
   static_cast<FrameJob&>(out) = job;
-  out.groups = pixel_groups(job.view.width, job.view.height, config.group());
+  const std::vector<PixelRect> of_frame =
+      pixel_groups(job.view.width, job.view.height, config.group());
+  for (std::uint32_t frame = 0; frame < job.frames(); ++frame) {
+    out.groups.insert(out.groups.end(), of_frame.begin(), of_frame.end());
+  }
   out.parts = group_parts(out.groups, config.group(), config.parts());
   return out;
 }
@@ -54,6 +58,16 @@ void add_spill(FrameJob& job, std::uint64_t bytes) {
 void add_frame_buffer(FrameJob& job) {
   const auto pixels = static_cast<std::uint64_t>(job.view.width) * job.view.height;
   job.frame_buffer = job.layout.regions.add("frame_buffer", pixel_bytes(job.frame_format) * pixels);
+}
+
+void add_following(FrameJob& job, const std::vector<Camera>& cameras) {
+  const RegionSpan second = job.layout.regions.add("second_frame_buffer", job.frame_buffer.bytes);
+  for (std::size_t frame = 1; frame < cameras.size(); ++frame) {
+    Picture picture = job;
+    picture.view = make_view<float>(cameras[frame]);
+    if (frame % 2 == 1) picture.frame_buffer = second;
+    job.following.push_back(picture);
+  }
 }
 
 GoldenFrame golden_frame(StreamingResult&& result, const std::vector<PixelRect>& groups) {

@@ -1,6 +1,7 @@
 // A frame's job as the units of a streaming machine know it: pixel groups, one after the other.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "algorithm/splat/rects.h"
@@ -9,9 +10,18 @@
 namespace sgs {
 
 struct StreamingJob : FrameJob {
-  std::vector<PixelRect> groups;  // in the order in which they are rendered
+  std::vector<PixelRect> groups;  // in the order in which they are rendered, frame after frame
   // [part][group] what each of the HFUs that share a fetch has of a group; one part: all of it.
   std::vector<std::vector<PixelRect>> parts;
+
+  std::uint32_t groups_of_frame() const {
+    return static_cast<std::uint32_t>(groups.size()) / frames();
+  }
+  std::uint32_t frame_of(std::uint32_t group) const { return group / groups_of_frame(); }
+  bool begins_frame(std::uint32_t group) const { return group % groups_of_frame() == 0; }
+  bool ends_frame(std::uint32_t group) const { return begins_frame(group + 1); }
+  const Picture& picture_of(std::uint32_t group) const { return picture(frame_of(group)); }
+  const View<float>& view_of(std::uint32_t group) const { return picture_of(group).view; }
 };
 
 }  // namespace sgs

@@ -31,7 +31,8 @@ StreamingMachine::StreamingMachine(const sc_core::sc_module_name& name,
       job_(job),
       built_for_(built_for),
       stalls_(options.stalls),
-      clock_(config.clock_mhz, options.jitter_seed) {
+      clock_(config.clock_mhz, options.jitter_seed),
+      parts_drawn_(job.frames()) {
   for (std::uint32_t p = 0; p < config.parts(); ++p) part_jobs_.push_back(job_of_part(job_, p));
   make_finished_groups();
   for (std::uint32_t h = 0; h < config.fetches(); ++h) {
@@ -64,13 +65,13 @@ void StreamingMachine::make_units(const Tokens& tokens) {
         std::make_unique<Hfu>(fmt::format("hfu{}", h).c_str(), config_.hfu, config_.codebook,
                               FineFilterPlace{h * config_.parts(), tokens.rejects}, context()));
   }
-  const auto part_done = [this] {
-    if (++parts_done_ == config_.parts()) finish_frame();
+  const auto part_drawn = [this](std::uint32_t frame) {
+    if (++parts_drawn_[frame] == config_.parts()) finish_frame(frame, frame + 1 == job_.frames());
   };
   for (std::uint32_t p = 0; p < config_.parts(); ++p) {
     rendering_.push_back(std::make_unique<RenderingUnit>(name_of_part("rendering", p).c_str(),
                                                          rendering_of_part(config_), tokens.arrival,
-                                                         part_context(p), part_done));
+                                                         part_context(p), part_drawn));
   }
   if (job_.layout.second_half.quantised()) {
     codebooks_ = std::make_unique<CodebookBuffer>("codebooks", config_.codebook, context(),
@@ -81,6 +82,7 @@ void StreamingMachine::make_units(const Tokens& tokens) {
 void StreamingMachine::bind() {
   for (std::uint32_t p = 0; p < config_.parts(); ++p) {
     rendering_[p]->finish(*finished_groups_[p]);
+    rendering_[p]->host(host);
   }
   for (std::uint32_t h = 0; h < config_.fetches(); ++h) {
     hfus_[h]->coarse.shares(*visits_[h]);

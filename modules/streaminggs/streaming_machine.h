@@ -35,8 +35,8 @@ class StreamingMachine : public Machine {
   const BuiltFor built_for_;
   const StallConfig stalls_;
   const ClockDomain clock_;
-  std::vector<StreamingJob> part_jobs_;  // [part]
-  std::uint32_t parts_done_ = 0;
+  std::vector<StreamingJob> part_jobs_;     // [part]
+  std::vector<std::uint32_t> parts_drawn_;  // [frame]
   struct Queue {
     FifoChannel* fifo;
     SramUse use;

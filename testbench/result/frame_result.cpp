@@ -99,8 +99,16 @@ void serialize(Archive& a, MemoryResult& r) {
     r.energy_most_j, r.energy_not_stated, r.energy_by_current_set_j, r.energy_by_region_j);
 }
 template <class Archive>
+void serialize(Archive& a, StreamedFrame& r) {
+  a(r.pose_s, r.begun_s, r.drawn_s, r.shown_s, r.bytes);
+}
+template <class Archive>
+void serialize(Archive& a, StreamResult& r) {
+  a(r.frames, r.pictures, r.repeated);
+}
+template <class Archive>
 void serialize(Archive& a, FrameResult& r) {
-  a(r.cycles, r.clock_mhz, r.drained, r.machine, r.memory, r.frame, r.wall_s);
+  a(r.cycles, r.clock_mhz, r.drained, r.machine, r.memory, r.frame, r.stream, r.wall_s);
 }
 
 std::string to_wire(const FrameResult& result) {

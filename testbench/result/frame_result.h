@@ -126,6 +126,20 @@ struct MemoryResult {
   std::vector<std::pair<std::string, double>> energy_by_current_set_j, energy_by_region_j;
 };
 
+// A frame of a stream. Seconds since the start.
+struct StreamedFrame {
+  double pose_s = 0;             // its pose was there
+  double begun_s = 0;            // the machine read the pose
+  double drawn_s = 0;            // its last pixel was in the memory
+  double shown_s = 0;            // its first row was read for the display
+  std::vector<std::byte> bytes;  // as they were shown
+};
+struct StreamResult {
+  std::vector<StreamedFrame> frames;
+  std::uint64_t pictures = 0;  // shown, from the first frame's to the last one's
+  std::uint64_t repeated = 0;  // of these, for want of the next frame
+};
+
 struct FrameResult {
   std::uint64_t cycles = 0;
   double clock_mhz = 0;
@@ -133,6 +147,7 @@ struct FrameResult {
   MachineResult machine;
   MemoryResult memory;
   std::vector<std::byte> frame;  // the frame buffer as read back from the memory
+  StreamResult stream;           // of frames back to back: then all else is of all of them
   double wall_s = 0;             // elaboration, loading of the memory, simulation
 
   double time_s() const { return static_cast<double>(cycles) / (clock_mhz * 1e6); }

@@ -26,6 +26,7 @@
 #include "testbench/streaminggs/run/clock_check.h"
 #include "testbench/streaminggs/run/path_run.h"
 #include "testbench/streaminggs/run/scene_arguments.h"
+#include "testbench/streaminggs/run/stream_run.h"
 #include "testbench/streaminggs/run/view_run.h"
 
 namespace sgs {
@@ -42,6 +43,7 @@ struct SimulateArguments : SceneArguments {
   std::string timeline_groups;          // "A-B", "A", or empty
   std::string path;                     // the camera's path; empty: views
   std::optional<std::uint32_t> frames;  // along it
+  bool stream = false;                  // the path's frames back to back
   bool print_config = false;
   bool verbose = false;
   std::string command;  // the whole command line
@@ -234,6 +236,7 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
     fmt::print(stderr, "streaminggs: note: {}\n", setting.technology.note);
   const std::string doubt = doubt_about_clock(config, setting.technology);
   if (!doubt.empty()) fmt::print(stderr, "streaminggs: note: {}\n", doubt);
+  if (arguments.stream) return run_stream_of(*path, setting, out);
   const int status = path ? run_path(*path, setting, out, arguments.drop_invalid)
                           : run_views(views, setting, out, arguments.drop_invalid);
   print_notes_of_memory(config.dram.memspec, setting.detail);
@@ -268,6 +271,9 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   line.reals("--frame-rate", arguments->run.frame_rates, 1e-3, 1e6,
              "frames a second at which joules a second are told, as in 60,90, with the memory's "
              "rest between frames; of a path one, if not given 90, or as nerfstudio's states");
+  line.flag("--stream", arguments->stream,
+            "the path's frames back to back in one simulation, shown at --frame-rate");
+  line.needs("--stream", "--path");
   line.excludes("--view", "--path");
   line.needs("--frames", "--path");
   line.file("--technology", arguments->technology, "table of energy and area");

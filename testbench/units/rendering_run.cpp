@@ -138,7 +138,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   std::uint64_t ends = 0;
   UnitContext context = bench.context(plan.job);
   context.built_for.group = plan.group;
-  RenderingUnit unit("rendering", plan.config, plan.arrival, context, [&] { ++ends; });
+  RenderingUnit unit("rendering", plan.config, plan.arrival, context,
+                     [&](std::uint32_t) { ++ends; });
   for (TimedFifo<SplatToken>* input : inputs) unit.splats(*input);
   unit.finish(feedback);
   bench.add_unit(unit);

@@ -135,7 +135,7 @@ void CoarseFilter::filter_slice(const Slice& slice) {
     numbers_.leaves(cycle + config_.cfu_depth_cycles);
     ++counters_.read;
     const SplitFirstHalf first = read_first_half(split, first_half(slice.slot, i));
-    const FirstHalfBound bound = bound_first_half(split, first, job_.view);
+    const FirstHalfBound bound = bound_first_half(split, first, job_.view_of(slice.share.group));
     const std::uint32_t parts = test(bound, slice.share.group, open);
     if (parts == 0) {
       places.add(cycle - 1);

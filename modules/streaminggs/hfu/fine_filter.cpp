@@ -304,7 +304,8 @@ void FineFilter::work_lanes(Part& part, std::uint64_t end) {
 void FineFilter::hand_on(Part& part, const Decoded& decoded, std::uint64_t began) {
   const FineCandidate& candidate = decoded.candidate;
   SplatToken token;
-  if (!make_geometry(job_.view, decoded.second.gaussian, token.splat) ||
+  const View<float>& view = job_.view_of(candidate.group);
+  if (!make_geometry(view, decoded.second.gaussian, token.splat) ||
       !reaches_group(token.splat, job_.parts[part.index][candidate.group])) {
     if (place_.rejects == Rejects::kDropped) {
       part.places[candidate.visit % part.places.size()].add(began);
@@ -312,7 +313,7 @@ void FineFilter::hand_on(Part& part, const Decoded& decoded, std::uint64_t began
     reject(part, candidate);
     return;
   }
-  add_colour(job_.view, job_.layout.sh_degree(), decoded.second.gaussian.mean, decoded.second.sh,
+  add_colour(view, job_.layout.sh_degree(), decoded.second.gaussian.mean, decoded.second.sh,
              token.splat);
   token.splat.index = candidate.slot;
   token.group = candidate.group;

@@ -13,14 +13,14 @@ constexpr std::uint64_t kClearCycles = 1;  // for a group's last row of pixels, 
 
 RenderingUnit::RenderingUnit(const sc_core::sc_module_name& name, const RenderingConfig& config,
                              Arrival arrival, const UnitContext& context,
-                             std::function<void()> on_done)
+                             std::function<void(std::uint32_t frame)> on_drawn)
     : sc_module(name),
       memory("memory", context.built_for.memory_port, context.clock.period()),
       config_(config),
       built_for_(context.built_for),
       job_(context.job),
       arrival_(arrival),
-      on_done_(std::move(on_done)),
+      on_drawn_(std::move(on_drawn)),
       blend_("blend", context.clock),
       drain_("drain", context.clock),
       finished_("finished", context.clock, config.pixel_buffers,
@@ -29,6 +29,7 @@ RenderingUnit::RenderingUnit(const sc_core::sc_module_name& name, const Renderin
       schedule_(config_) {
   SC_THREAD(run_blend);
   SC_THREAD(run_drain);
+  SC_THREAD(run_tell);
 }
 
 void RenderingUnit::run_blend() {
@@ -107,18 +108,42 @@ void RenderingUnit::run_drain() {
   for (std::uint32_t buffer = 0; buffer < config_.pixel_buffers; ++buffer) {
     free_buffers_.push(buffer, drain_);
   }
-  for (std::size_t done = 0; done < job_.groups.size(); ++done) {
-    take_up_group(drain_, memory, static_cast<std::uint32_t>(done));
+  for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
+    take_up_group(drain_, memory, group);
     const std::shared_ptr<GroupState> state = finished_.pop(drain_);
-    write_group(*state);
+    if (job_.begins_frame(group)) await_buffer(job_.frame_of(group));
+    write_group(*state, job_.picture_of(group));
     free_buffers_.push(0, drain_);
+    if (job_.ends_frame(group)) {
+      drained_.push_back(memory.next());
+      drained_one_.notify(sc_core::SC_ZERO_TIME);
+    }
   }
   await_all(memory, drain_);
   drain_.idles();
-  on_done_();
 }
 
-void RenderingUnit::write_group(const GroupState& state) {
+// The frame before the last was shown from the same bytes.
+void RenderingUnit::await_buffer(std::uint32_t frame) {
+  if (host.size() == 0) return;
+  while (!host->buffer_free(frame)) {
+    drain_.waits_for(WaitFor::kRoom, host);
+    sc_core::wait(host->news());
+    drain_.clock().align();
+    drain_.works();
+  }
+}
+
+void RenderingUnit::run_tell() {
+  for (std::uint32_t frame = 0; frame < job_.frames(); ++frame) {
+    while (drained_.empty()) sc_core::wait(drained_one_);
+    memory.wait_before(drained_.front());
+    drained_.pop_front();
+    on_drawn_(frame);
+  }
+}
+
+void RenderingUnit::write_group(const GroupState& state, const Picture& picture) {
   const PixelRect& pixels = state.pixels();
   const auto width = static_cast<std::uint32_t>(pixels.width());
   const std::uint32_t bytes = pixel_bytes(job_.frame_format);
@@ -131,8 +156,9 @@ void RenderingUnit::write_group(const GroupState& state) {
                    row.data() + static_cast<std::size_t>(x - pixels.x0) * bytes);
     }
     rows.make(row_cycles);
-    rows.write(job_.pixel_address(pixels.x0, y), row.data(), static_cast<std::uint32_t>(row.size()),
-               job_.frame_buffer.region, y + 1 < pixels.y1 ? row_cycles : 0);
+    rows.write(picture.pixel_address(pixels.x0, y), row.data(),
+               static_cast<std::uint32_t>(row.size()), picture.frame_buffer.region,
+               y + 1 < pixels.y1 ? row_cycles : 0);
   }
   // A sub-tile is cleared in the cycle after its last row was read: all but the last while others
   // are drained.

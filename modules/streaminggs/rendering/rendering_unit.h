@@ -6,12 +6,14 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <systemc>
 #include <vector>
 
 #include "algorithm/render/group_state.h"
+#include "modules/frame_host.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/finished_subtiles.h"
 #include "modules/streaminggs/messages.h"
@@ -33,12 +35,13 @@ class RenderingUnit : public sc_core::sc_module {
   FifoIns<SplatToken> splats{"splats"};  // read in turn
   FinishGroupOut finish{"finish"};
   FinishSubtileOut finish_subtile{"finish_subtile"};
+  FrameHostPort host{"host"};
   MemoryPort memory;  // pixels
 
   SC_HAS_PROCESS(RenderingUnit);
-  // on_done() is called when the last pixel of the last group has been written.
+  // on_drawn() is called when all pixels of a frame are in the memory, frame after frame.
   RenderingUnit(const sc_core::sc_module_name& name, const RenderingConfig& config, Arrival arrival,
-                const UnitContext& context, std::function<void()> on_done);
+                const UnitContext& context, std::function<void(std::uint32_t frame)> on_drawn);
 
   struct Counters : CounterSet {
     Counter groups{*this, "groups", "groups", "rendered"};
@@ -65,23 +68,27 @@ class RenderingUnit : public sc_core::sc_module {
  private:
   void run_blend();  // thread
   void run_drain();  // thread
+  void run_tell();   // thread: frames whose pixels have come to the memory
   void blend_splat(const Splat& splat, std::uint32_t group, GroupState& state);
   void tell_finished(std::uint32_t group, std::size_t at, std::uint64_t now);
   void work_until(std::uint64_t cycle);
   void publish_ledger(DataSheet& sheet);
   void publish_dispatcher(DataSheet& sheet);
   void publish_pixels(DataSheet& sheet);
-  void write_group(const GroupState& state);
+  void await_buffer(std::uint32_t frame);
+  void write_group(const GroupState& state, const Picture& picture);
 
   const RenderingConfig config_;
   const BuiltFor built_for_;
   const StreamingJob& job_;
   const Arrival arrival_;
-  std::function<void()> on_done_;
+  std::function<void(std::uint32_t frame)> on_drawn_;
   Activity blend_, drain_;
   TimedFifo<std::shared_ptr<GroupState>> finished_;
   TimedFifo<std::uint32_t> free_buffers_;
   ClusterSchedule schedule_;
+  std::deque<MemoryPort::Ticket> drained_;  // ends of frames that are not told yet
+  sc_core::sc_event drained_one_;
   Counters counters_;
   std::vector<std::uint64_t> cycles_of_groups_;  // from the end of the one before
   std::uint32_t current_group_ = 0;              // for the waveform

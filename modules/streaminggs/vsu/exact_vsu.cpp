@@ -28,7 +28,7 @@ ExactVsu::ExactVsu(const sc_core::sc_module_name& name, const ExactVsuConfig& co
               config.nodes_in_test, config.test_depth_cycles),
       numbers_in_turn_(group_numbers(group_flow(GroupUse::kWalk), context.built_for.single)),
       aside_(memory, walk_, aside),
-      chunk_walk_(job_.view, aside_, config.walk_room()),
+      chunk_walk_(aside_, config.walk_room()),
       ready_("ready", context.clock, kReadyVisits),
       taken_("taken", context.clock, kReadyVisits),
       room_(kReadyVisits),
@@ -83,14 +83,22 @@ bool ExactVsu::may_begin_group() const {
 }
 
 bool ExactVsu::begin_group() {
-  if (!may_begin_group()) return false;
+  if (!may_begin_group() || waits_for_pose()) return false;
   if (walk_.clock().now_cycles() < numbers_stand_[next_group_ % numbers_stand_.size()]) {
     return false;
   }
-  chunk_walk_.begin(job_.groups[next_group_], job_.layout.chunk_table().nodes.count == 0);
+  if (host.size() > 0 && job_.begins_frame(next_group_)) {
+    host->takes_pose(job_.frame_of(next_group_));
+  }
+  chunk_walk_.begin(job_.view_of(next_group_), job_.groups[next_group_],
+                    job_.layout.chunk_table().nodes.count == 0);
   ++next_group_;
   work_on_queues(1);
   return true;
+}
+
+bool ExactVsu::waits_for_pose() const {
+  return next_group_ < job_.groups.size() && !pose_known(host, job_.frame_of(next_group_));
 }
 
 // Ahead of need as long as no entry is put aside for it.
@@ -227,6 +235,8 @@ void ExactVsu::say_what_is_missing() {
     walk_.waits_for(WaitFor::kRoom, tester_.slots());
   } else if (nodes_.used() > 0) {
     walk_.waits_for(WaitFor::kReads, memory);
+  } else if (chunk_walk_.begun() == 0) {
+    walk_.waits_for(WaitFor::kInput, host);
   } else {
     walk_.waits_for(WaitFor::kInput, tester_.pipeline());
   }
@@ -241,16 +251,18 @@ void ExactVsu::wait_for_news() {
   if (nodes_.any_arrived() && !tester_.full()) may_come(nodes_.ready_at());
   if (!taken_.empty()) may_come(taken_.ready_at());
   if (tester_.any_tested()) may_come(tester_.ready_at());
-  if (may_begin_group()) {
+  if (may_begin_group() && !waits_for_pose()) {
     may_come(static_cast<double>(numbers_stand_[next_group_ % numbers_stand_.size()]) *
              walk_.clock().period());
   }
-  if (first) {
-    sc_core::wait(*first - sc_core::sc_time_stamp(), news_);
+  if (waits_for_pose()) {
+    const sc_core::sc_event_or_list news = news_ | host->news();
+    first ? sc_core::wait(*first - sc_core::sc_time_stamp(), news) : sc_core::wait(news);
+    walk_.clock().align();
   } else {
-    sc_core::wait(news_);
+    first ? sc_core::wait(*first - sc_core::sc_time_stamp(), news_) : sc_core::wait(news_);
+    walk_.clock().jitter();
   }
-  walk_.clock().jitter();
   walk_.works();
 }
 

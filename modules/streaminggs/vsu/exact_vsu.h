@@ -21,6 +21,7 @@
 #include "modules/chunks/chunk_tester.h"
 #include "modules/chunks/node_buffer.h"
 #include "modules/datapath/group_numbers.h"
+#include "modules/frame_host.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/finished_subtiles.h"
 #include "modules/streaminggs/messages.h"
@@ -40,6 +41,7 @@ class ExactVsu : public sc_core::sc_module {
   FifoOuts<VisitShare> visits{"visits"};  // one a HFU; visit v goes to v modulo their number
   FinishedGroupsIn finished{"finished"};
   FinishedSubtilesIn mask{"mask"};
+  FrameHostPort host{"host"};
   MemoryPort memory;
 
   SC_HAS_PROCESS(ExactVsu);
@@ -83,6 +85,7 @@ class ExactVsu : public sc_core::sc_module {
   bool step();
   bool may_begin_group() const;
   bool begin_group();
+  bool waits_for_pose() const;
   bool read_node();
   bool give_chunk();
   bool hidden(const WalkEntry& entry);

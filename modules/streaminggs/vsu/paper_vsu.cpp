@@ -61,12 +61,13 @@ void PaperVsu::run_traverse() {
   std::uint64_t has_registers = 0;  // from this cycle on
   for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
     current_group_ = group;
+    if (job_.begins_frame(group)) take_up_frame(job_.frame_of(group));
     take_up_group(traverse_, node_memory, group);
     const std::uint64_t now = clock.now_cycles();
     traverse_.work(std::max(now, numbers_in_turn_.stand(has_registers)) - now);
     const std::uint64_t from = clock.now_cycles();
     has_registers = from + 1;
-    const GroupVisits visits = order_group(job_.groups[group]);
+    const GroupVisits visits = order_group(group);
     const std::uint64_t cycles = clock.now_cycles() - from;
     (visits.overflows > 0 ? cycles_of_full_tables_ : cycles_of_others_) += cycles;
     if (visits.voxels.empty()) ++counters_.groups_empty;
@@ -79,7 +80,22 @@ void PaperVsu::run_traverse() {
   traverse_.idles();
 }
 
-GroupVisits PaperVsu::order_group(const PixelRect& pixels) {
+void PaperVsu::take_up_frame(std::uint32_t frame) {
+  if (host.size() > 0) {
+    while (!host->pose_known(frame)) {
+      traverse_.waits_for(WaitFor::kInput, host);
+      sc_core::wait(host->news());
+      traverse_.clock().align();
+      traverse_.works();
+    }
+    host->takes_pose(frame);
+  }
+  if (samples_) samples_->take_up_view(job_.picture(frame).view);
+}
+
+GroupVisits PaperVsu::order_group(std::uint32_t group) {
+  const PixelRect& pixels = job_.groups[group];
+  const View<float>& view = job_.view_of(group);
   const VoxelTableLayout& voxels = job_.layout.voxel_table();
   if (voxels.nodes.count == 0) {
     hand_over({}, true);
@@ -88,10 +104,10 @@ GroupVisits PaperVsu::order_group(const PixelRect& pixels) {
   if (samples_) return group_visits(pixels, *samples_, table_);
   if (config_.sample_step_voxels > 0) {
     const SamplePath path(voxels.frame, config_.rays().sample_step_voxels);
-    RaysInFlight in_flight(job_.view, path, *rays_);
+    RaysInFlight in_flight(view, path, *rays_);
     return group_visits(pixels, in_flight, table_);
   }
-  RaysInFlight in_flight(job_.view, RayPath<float>(voxels.frame), *rays_);
+  RaysInFlight in_flight(view, RayPath<float>(voxels.frame), *rays_);
   return group_visits(pixels, in_flight, table_);
 }
 
@@ -135,7 +151,7 @@ void PaperVsu::visit_voxel(std::uint32_t group, std::uint32_t voxel) {
     hand_out(group, piece);
     return !all_finished(finished, group);
   };
-  visit_pieces(records_.get(voxel, record_memory, emit_), job_.view.position,
+  visit_pieces(records_.get(voxel, record_memory, emit_), job_.view_of(group).position,
                config_.visit_gaussians, plane, visit);
 }
 

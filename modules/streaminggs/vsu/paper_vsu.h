@@ -14,6 +14,7 @@
 
 #include "algorithm/order/group_visits.h"
 #include "modules/datapath/group_numbers.h"
+#include "modules/frame_host.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/messages.h"
 #include "modules/streaminggs/unit_context.h"
@@ -31,8 +32,9 @@ class PaperVsu : public sc_core::sc_module {
  public:
   FifoOuts<VisitShare> shares{"shares"};   // one a fetch
   FinishedGroupsIns finished{"finished"};  // one for each part of the groups
-  MemoryPort node_memory;                  // tree nodes, or tables of samples, for the rays
-  MemoryPort record_memory;                // voxel records, for the visits
+  FrameHostPort host{"host"};
+  MemoryPort node_memory;    // tree nodes, or tables of samples, for the rays
+  MemoryPort record_memory;  // voxel records, for the visits
 
   SC_HAS_PROCESS(PaperVsu);
   PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& config,
@@ -70,7 +72,8 @@ class PaperVsu : public sc_core::sc_module {
   void run_arrivals();  // thread: waits for the tree's nodes, where rays follow it
   void run_emit();      // thread: ordered voxels to visits
   ListsOut lists();
-  GroupVisits order_group(const PixelRect& pixels);
+  void take_up_frame(std::uint32_t frame);
+  GroupVisits order_group(std::uint32_t group);
   void hand_over(const std::vector<std::uint32_t>& voxels, bool last);
   void visit_voxel(std::uint32_t group, std::uint32_t voxel);
   void hand_out(std::uint32_t group, const VoxelRecord& piece);

@@ -39,10 +39,14 @@ SampledRays::SampledRays(const PaperVsuConfig& config, const OperationLatencies&
       lists_(std::move(lists)),
       begins_(sampled_ray_pipeline(config, latencies)),
       samples_(ray_sample_pipeline(config, latencies)),
-      space_(sample_space(job.view.position, job.layout.voxel_table().frame, job.renaming.cells,
-                          config.rays().sample_step_voxels, config.rays().sample_far_voxels)),
       renaming_(config.renaming_bytes, job.renaming.records),
       adjacency_(config, job.adjacency) {}
+
+void SampledRays::take_up_view(const View<float>& view) {
+  view_ = &view;
+  space_ = sample_space(view.position, job_.layout.voxel_table().frame, job_.renaming.cells,
+                        config_.rays().sample_step_voxels, config_.rays().sample_far_voxels);
+}
 
 void SampledRays::advance_to(std::uint64_t cycle) {
   if (cycle > now()) activity_.clock().wait_cycles(cycle - now());
@@ -60,7 +64,7 @@ bool SampledRays::follow(const PixelRect& group, VisitWindow& window, OrderingTa
   Pass pass{window, table, out};
   begin_pass();
   for (RayPixels at(group, config_.ray_step_px); !at.done() && pass.fits; at.next()) {
-    follow_ray(pixel_ray(job_.view, at.x(), at.y()), pass);
+    follow_ray(pixel_ray(*view_, at.x(), at.y()), pass);
   }
   const std::uint64_t entered = table_free_ + kTableStages - 1;
   advance_to(pass.fits ? std::max({sampler_free_, look_up_free_, entered}) : entered);

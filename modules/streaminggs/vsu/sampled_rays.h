@@ -36,6 +36,9 @@ class SampledRays {
   SampledRays(const PaperVsuConfig& config, const OperationLatencies& latencies, Activity& activity,
               MemoryPort& port, const StreamingJob& job, ListsOut lists);
 
+  // From where the rays of a frame come. view: outlives them.
+  void take_up_view(const View<float>& view);
+
   // What group_visits() asks of rays.
   bool follow(const PixelRect& group, VisitWindow& window, OrderingTable& table, GroupVisits& out);
   void ordered(const std::vector<std::uint32_t>& voxels, const OrderingTable& table, bool last);
@@ -90,7 +93,8 @@ class SampledRays {
   MemoryPort& port_;
   const ListsOut lists_;
   const Datapath begins_, samples_;
-  const SampleSpace space_;
+  SampleSpace space_{};
+  const View<float>* view_ = nullptr;
   TableCache<RenamingLine> renaming_;
   AdjacencyCache adjacency_;
   // Cycles from which each stage is free again.

@@ -6,9 +6,13 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <systemc>
+#include <utility>
+#include <vector>
 
 #include "algorithm/files/output_file.h"
+#include "modules/display/display.h"
 #include "modules/dram/command_trace.h"
 #include "modules/dram/dram_controller.h"
 #include "testbench/process/child_process.h"
@@ -34,8 +38,48 @@ struct Outputs {
   OutputFile* dram_trace = nullptr;
 };
 
+// Display of a stream in the simulation, and the frames that it shows.
+class Stream {
+ public:
+  Stream(const FrameJob& job, double rate, Machine& machine, DramController& memory)
+      : display_("display", job, rate, machine.clock().period()), result_{} {
+    result_.frames.resize(job.frames());
+    machine.host.bind(display_);
+    display_.memory.socket.bind(memory.socket);
+    display_.on_shown = [this, &job, &memory](std::uint32_t frame, const std::byte* bytes) {
+      std::vector<std::byte>& into = result_.frames[frame].bytes;
+      into.resize(job.frame_buffer.bytes);
+      if (bytes != nullptr) {
+        std::memcpy(into.data(), bytes, into.size());
+      } else {
+        memory.read_back(job.picture(frame).frame_buffer.base, into.data(), into.size());
+      }
+    };
+  }
+
+  StreamResult result() {
+    for (std::size_t frame = 0; frame < result_.frames.size(); ++frame) {
+      const FrameTimes& times = display_.times()[frame];
+      StreamedFrame& of = result_.frames[frame];
+      of.pose_s = times.pose.to_seconds();
+      of.begun_s = times.begun.to_seconds();
+      of.drawn_s = times.drawn.to_seconds();
+      of.shown_s = times.shown.to_seconds();
+    }
+    result_.pictures = display_.pictures();
+    result_.repeated = display_.repeated();
+    return std::move(result_);
+  }
+
+ private:
+  Display display_;
+  StreamResult result_;
+};
+
+// rate: of the display that shows the frames of a stream; none for a single frame.
 FrameResult simulate(const MachineDesign& design, const FrameJob& job, const MemoryImage& image,
-                     const DramConfig& dram, const BuildOptions& build, const Outputs& outputs) {
+                     const DramConfig& dram, std::optional<double> rate, const BuildOptions& build,
+                     const Outputs& outputs) {
   use_femtosecond_resolution();
   sc_core::sc_report_handler::set_actions(sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
   fail_child_on_sc_error();
@@ -47,6 +91,12 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
   const std::unique_ptr<Machine> machine = design.build("accelerator", job, build);
   check_sram_budget(*machine);
   for (auto& socket : machine->memory) socket.bind(memory.socket);
+  std::vector<std::string> requesters = machine->requesters();
+  std::optional<Stream> stream;
+  if (rate) {
+    stream.emplace(job, *rate, *machine, memory);
+    requesters.push_back("display");
+  }
   std::optional<CommandTraceWriter> dram_trace;
   if (outputs.dram_trace != nullptr) {
     dram_trace.emplace(*outputs.dram_trace, CommandTraceHeader::of(dram), memory);
@@ -76,15 +126,37 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
   result.machine = collect(*machine);
   if (timeline) timeline->close();
   add_memory_path(*machine, dram.buses(memory.memspec()), result.machine);
-  result.memory = collect_memory(memory.stats(), job.layout.regions, machine->requesters());
+  result.memory = collect_memory(memory.stats(), job.layout.regions, requesters);
   result.memory.write_queue_entries = dram.write_queue_entries;
-  result.frame.resize(job.frame_buffer.bytes);
-  memory.read_back(job.frame_buffer.base, result.frame.data(), result.frame.size());
+  if (stream) {
+    result.stream = stream->result();
+  } else {
+    result.frame.resize(job.frame_buffer.bytes);
+    memory.read_back(job.frame_buffer.base, result.frame.data(), result.frame.size());
+  }
   if (waveform) {
     // The kernel writes what changed in a moment when time goes on.
     sc_core::sc_start(sc_core::sc_get_time_resolution());
     waveform->close();
   }
+  return result;
+}
+
+FrameResult run(const MachineDesign& design, const FrameJob& job, const MemoryImage& image,
+                const DramConfig& dram, std::optional<double> rate, const RunOptions& options) {
+  const auto began = std::chrono::steady_clock::now();
+  // Made here, so that nothing is left of them whatever becomes of the child.
+  OutputSet files;
+  Outputs outputs;
+  if (!options.vcd_path.empty()) outputs.vcd = &files.add(options.vcd_path);
+  if (!options.timeline_path.empty()) outputs.timeline = &files.add(options.timeline_path);
+  outputs.timeline_groups = options.timeline_groups;
+  if (!options.dram_trace_path.empty()) outputs.dram_trace = &files.add(options.dram_trace_path);
+  const std::string bytes = in_child(
+      [&] { return to_wire(simulate(design, job, image, dram, rate, options.build, outputs)); });
+  files.commit();
+  FrameResult result = from_wire(bytes);
+  result.wall_s = seconds_since(began);
   return result;
 }
 
@@ -94,27 +166,18 @@ FrameResult simulate_frame(const MachineDesign& design, const FrameJob& job,
                            const MemoryImage& image, const DramConfig& dram,
                            const BuildOptions& build) {
   const auto began = std::chrono::steady_clock::now();
-  FrameResult result = simulate(design, job, image, dram, build, {});
+  FrameResult result = simulate(design, job, image, dram, {}, build, {});
   result.wall_s = seconds_since(began);
   return result;
 }
 
 FrameResult run_frame(const MachineDesign& design, const FrameJob& job, const MemoryImage& image,
                       const DramConfig& dram, const RunOptions& options) {
-  const auto began = std::chrono::steady_clock::now();
-  // Made here, so that nothing is left of them whatever becomes of the child.
-  OutputSet files;
-  Outputs outputs;
-  if (!options.vcd_path.empty()) outputs.vcd = &files.add(options.vcd_path);
-  if (!options.timeline_path.empty()) outputs.timeline = &files.add(options.timeline_path);
-  outputs.timeline_groups = options.timeline_groups;
-  if (!options.dram_trace_path.empty()) outputs.dram_trace = &files.add(options.dram_trace_path);
-  const std::string bytes =
-      in_child([&] { return to_wire(simulate(design, job, image, dram, options.build, outputs)); });
-  files.commit();
-  FrameResult result = from_wire(bytes);
-  result.wall_s = seconds_since(began);
-  return result;
+  return run(design, job, image, dram, {}, options);
 }
 
+FrameResult run_stream(const MachineDesign& design, const FrameJob& job, const MemoryImage& image,
+                       const DramConfig& dram, double rate, const RunOptions& options) {
+  return run(design, job, image, dram, rate, options);
+}
 }  // namespace sgs

@@ -95,7 +95,7 @@ AheadOfNeed walked_ahead(const Scene& scene, TreeSource& source, ChunkWalk<TreeS
     };
     const bool may_begin = walk.begun() == 0 || walk.has_read_ahead();
     if (next < scene.groups.size() && may_begin && (walk.begun() == 0 || one_in(2))) {
-      walk.begin(scene.groups[next++], scene.tree.nodes.empty());
+      walk.begin(scene.view, scene.groups[next++], scene.tree.nodes.empty());
     }
     if (walk.has_node() && being_read.size() < 6 && (walk.needs_node() || one_in(2))) {
       being_read.push_back(walk.take_node());
@@ -130,7 +130,7 @@ TEST_CASE("walk: nodes opened ahead and in any order, and two walks at a time, c
       for (const unsigned leave_one_in : {0U, 200U}) {
         CAPTURE(seed, capacity, leave_one_in);
         TreeSource source(scene.tree);
-        ChunkWalk<TreeSource> walk(scene.view, source, {capacity, capacity});
+        ChunkWalk<TreeSource> walk(source, {capacity, capacity});
         const AheadOfNeed got = walked_ahead(scene, source, walk, seed, leave_one_in);
         REQUIRE(got.groups.size() == scene.groups.size());
         for (std::size_t g = 0; g < scene.groups.size(); ++g) {
@@ -234,8 +234,8 @@ TEST_CASE("walk opens no node farther than the chunk that was asked for") {
   camera.focal_x = camera.focal_y = 4;
   const View<float> view = make_view<float>(camera);
   TreeSource source(tree);
-  ChunkWalk<TreeSource> walk(view, source, {512, 512});
-  walk.begin({0, 0, 4, 4}, false);
+  ChunkWalk<TreeSource> walk(source, {512, 512});
+  walk.begin(view, {0, 0, 4, 4}, false);
   const std::optional<WalkEntry> first = walk.next();
   REQUIRE(first);
   CHECK(storage_order[first->at] == 0);

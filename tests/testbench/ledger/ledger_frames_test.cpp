@@ -57,9 +57,9 @@ TEST_CASE("ledger: exact order is charged with what the golden renderer counts")
   check_shared(frame, golden, 1);
   // Children of the nodes that the walk opens, one by one.
   TreeInMemory source{tree, {}};
-  ChunkWalk<TreeInMemory> walk(frame.job.view, source, {256, 384});
+  ChunkWalk<TreeInMemory> walk(source, {256, 384});
   for (const PixelRect& group : pixel_groups(72, 48, kGroup)) {
-    walk.begin(group, false);
+    walk.begin(frame.job.view, group, false);
     while (walk.next()) {
     }
     walk.end();

@@ -11,7 +11,7 @@ ToyMachine::ToyMachine(const sc_core::sc_module_name& name, const ToyConfig& con
       clock_(config.clock_mhz, options.jitter_seed),
       colours_("colours", clock_, config.queue_entries),
       fetch_("fetch", config_, clock_, job_),
-      write_("write", config_, clock_, job_, [this] { finish_frame(); }) {
+      write_("write", config_, clock_, job_, [this] { finish_frame(0, true); }) {
   if (options.stalls.probability > 0) colours_.inject(options.stalls);
   fetch_.colours(colours_);
   write_.colours(colours_);

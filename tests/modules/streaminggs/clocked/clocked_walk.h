@@ -47,7 +47,8 @@ class ClockedWalk {
         finishing_(finishing),
         numbers_(hardware.numbers),
         tests_(hardware.tests, nodes),
-        walk_(view, aside_, {hw_.node_queue_entries, hw_.queue_entries}) {
+        view_(view),
+        walk_(aside_, {hw_.node_queue_entries, hw_.queue_entries}) {
     const std::uint64_t upper = std::min<std::uint64_t>(hw_.upper_nodes, nodes.size());
     upper_ = {places.base, upper * places.record_bytes};
     for (std::size_t group = 0; group < groups.size(); ++group) numbers_.ask();
@@ -126,7 +127,7 @@ class ClockedWalk {
     if (next_group_ == groups_.size()) return false;
     if (walk_.begun() > 0 && !walk_.has_read_ahead()) return false;
     if (!numbers_.stand(static_cast<std::uint32_t>(next_group_))) return false;
-    walk_.begin(groups_[next_group_++], nodes_.empty());
+    walk_.begin(view_, groups_[next_group_++], nodes_.empty());
     take_time(1);
     return true;
   }
@@ -228,6 +229,7 @@ class ClockedWalk {
   const Finishing finishing_;
   ClockedGroupNumbers numbers_;
   ClockedChunkTests<WalkEntry> tests_;
+  const View<float>& view_;
   Aside aside_;
   ChunkWalk<Aside> walk_;
   std::uint64_t now_ = 0, busy_ = 0, operations_ = 0, visit_ = 0;

@@ -124,9 +124,10 @@ void run_rendering(tb::Case& test, Takings& taken, const RenderingWorkload& load
   UnitContext context = bench.context(job);
   context.built_for.group = load.group;
   Listener listener("listener", bench.clock(), taken);
-  RenderingUnit unit("rendering", config_of(load.hardware), Arrival::kByToken, context, [&] {
-    taken.push_back({bench.clock().now_cycles(), 0});
-  });
+  RenderingUnit unit("rendering", config_of(load.hardware), Arrival::kByToken, context,
+                     [&](std::uint32_t) {
+                       taken.push_back({bench.clock().now_cycles(), 0});
+                     });
   unit.finish(listener);
   const auto inputs = bench.add_fifos<SplatToken>("splats", load.inputs, load.input_entries, 1);
   for (TimedFifo<SplatToken>* input : inputs) unit.splats(*input);

@@ -97,9 +97,10 @@ void run_unit(tb::Case& test, Takings& taken, const Recording& recording) {
   UnitContext context = bench.context(recording.job);
   context.built_for.group = kGroup;
   Listener listener("listener");
-  RenderingUnit unit("rendering", config_of_exact(), Arrival::kByToken, context, [&] {
-    taken.push_back({bench.clock().now_cycles(), kDrained});
-  });
+  RenderingUnit unit("rendering", config_of_exact(), Arrival::kByToken, context,
+                     [&](std::uint32_t) {
+                       taken.push_back({bench.clock().now_cycles(), kDrained});
+                     });
   unit.finish(listener);
   constexpr std::uint32_t kEntries = 20;
   auto& input = bench.add_fifo<SplatToken>("splats", kEntries, 1);

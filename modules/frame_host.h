@@ -1,0 +1,33 @@
+// The host's side of a stream of frames: when a frame may begin, when its pixels may be written,
+// and what it is told. Units of a machine whose port is unbound draw as if everything were there:
+// so does a machine of a single frame.
+#pragma once
+
+#include <cstdint>
+#include <systemc>
+
+namespace sgs {
+
+// What units see depends on the time alone, not on which of them the kernel runs first: both
+// answers change at least a cycle after what they follow from.
+class FrameHostIf : public virtual sc_core::sc_interface {
+ public:
+  virtual bool pose_known(std::uint32_t frame) const = 0;
+  // Nothing that is shown lies in the frame's buffer any more.
+  virtual bool buffer_free(std::uint32_t frame) const = 0;
+  // One of the two may have changed.
+  virtual const sc_core::sc_event& news() const = 0;
+
+  // The machine reads the frame's pose now.
+  virtual void takes_pose(std::uint32_t frame) = 0;
+  // All its pixels are in the memory. Frames come in turn.
+  virtual void drawn(std::uint32_t frame) = 0;
+};
+
+using FrameHostPort = sc_core::sc_port<FrameHostIf, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
+
+inline bool pose_known(const FrameHostPort& host, std::uint32_t frame) {
+  return host.size() == 0 || host->pose_known(frame);
+}
+
+}  // namespace sgs
