@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <systemc>
 
+#include "tlm/activity.h"
+
 namespace sgs {
 
 // What units see depends on the time alone, not on which of them the kernel runs first: both
@@ -28,6 +30,29 @@ using FrameHostPort = sc_core::sc_port<FrameHostIf, 1, sc_core::SC_ZERO_OR_MORE_
 
 inline bool pose_known(const FrameHostPort& host, std::uint32_t frame) {
   return host.size() == 0 || host->pose_known(frame);
+}
+
+// Waits until the frame's pose is known, and takes it.
+inline void await_pose(FrameHostPort& host, std::uint32_t frame, Activity& activity) {
+  if (host.size() == 0) return;
+  while (!host->pose_known(frame)) {
+    activity.waits_for(WaitFor::kInput, host);
+    sc_core::wait(host->news());
+    activity.clock().align();
+    activity.works();
+  }
+  host->takes_pose(frame);
+}
+
+// Waits until pixels of the frame may be written.
+inline void await_buffer(FrameHostPort& host, std::uint32_t frame, Activity& activity) {
+  if (host.size() == 0) return;
+  while (!host->buffer_free(frame)) {
+    activity.waits_for(WaitFor::kRoom, host);
+    sc_core::wait(host->news());
+    activity.clock().align();
+    activity.works();
+  }
 }
 
 }  // namespace sgs

@@ -61,9 +61,8 @@ class MachineDesign {
   // The registers of a frame; regions that the frame writes stand behind the scene's.
   virtual FrameJob job(const StoredScene& scene, const Camera& camera) const = 0;
 
-  // The same of frames back to back, all of one size: each is drawn into the frame buffer that is
-  // not shown. Throws InputError where the machine draws single frames only.
-  virtual FrameJob stream(const StoredScene& scene, const std::vector<Camera>& cameras) const;
+  // The same of frames back to back, all of one size: they take two frame buffers in turn.
+  FrameJob stream(const StoredScene& scene, const std::vector<Camera>& cameras) const;
 
   // The frame that the machine must render of this job. Whatever else its golden renderer knows
   // belongs to this machine alone: published in `sheet`, by name, as operations that the frame left

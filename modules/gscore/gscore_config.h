@@ -99,6 +99,7 @@ struct ListsConfig {
   std::uint32_t tiles = 0, lines = 0;
   std::uint32_t line_bytes = 32, block_lines = 16;
   std::uint64_t pool_bytes = 268435456;
+  std::uint32_t sets = 1;
 };
 
 inline void visit(ConfigVisitor& v, ListsConfig& c) {
@@ -114,6 +115,9 @@ inline void visit(ConfigVisitor& v, ListsConfig& c) {
   v("block_lines", c.block_lines, in_range(1, 64), "lines behind one link");
   v("pool_bytes", c.pool_bytes, in_range(4096, std::int64_t{1} << 40),
     "lists in memory; a pass that takes more is made again with half of its tiles");
+  v("sets", c.sets, in_range(1, 2),
+    "of projected Gaussians and their lists; with 2 a pass is projected while the one before it is "
+    "drawn");
 }
 
 struct SortingConfig {

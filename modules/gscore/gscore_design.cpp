@@ -106,7 +106,7 @@ std::string GscoreDesign::golden_key() const {
 std::unique_ptr<Machine> GscoreDesign::build(const sc_core::sc_module_name& name,
                                              const FrameJob& job,
                                              const BuildOptions& options) const {
-  return std::make_unique<GscoreMachine>(name, config_, gscore_job(job), options);
+  return std::make_unique<GscoreMachine>(name, config_, gscore_job(config_, job), options);
 }
 
 }  // namespace sgs::gscore

@@ -48,8 +48,8 @@ void add_regions(const GscoreConfig& config, FrameJob& job) {
         config.lists.pool_bytes, least * blocks.block_bytes(), count));
   }
   Regions& regions = job.layout.regions;
-  regions.add_records(kProjected, kRecordPlaceBytes, count);
-  regions.add(kTileLists, config.lists.pool_bytes);
+  regions.add_records(kProjected, kRecordPlaceBytes, config.lists.sets * count);
+  regions.add(kTileLists, config.lists.sets * config.lists.pool_bytes);
   // A list is split once a level, into 8.
   const bool splits = count > config.sorting.list_entries;
   const std::uint64_t of_level = blocks_for(blocks, count, kSubsets);
@@ -60,14 +60,17 @@ void add_regions(const GscoreConfig& config, FrameJob& job) {
                                                      job.view.width * job.view.height);
 }
 
-GscoreJob gscore_job(const FrameJob& job) {
+GscoreJob gscore_job(const GscoreConfig& config, const FrameJob& job) {
   GscoreJob out;
+  out.sets = config.lists.sets;
   static_cast<FrameJob&>(out) = job;
   out.columns = static_cast<std::uint32_t>(cycles_for(job.view.width, kTilePx));
-  out.tile_count = out.columns * static_cast<std::uint32_t>(cycles_for(job.view.height, kTilePx));
+  out.tile_count =
+      out.columns * static_cast<std::uint32_t>(cycles_for(job.view.height, kTilePx)) * job.frames();
   const Regions& regions = job.layout.regions;
   out.projected =
-      span_of(regions, kProjected).records(0, kRecordPlaceBytes, job.layout.gaussian_count());
+      span_of(regions, kProjected)
+          .records(0, kRecordPlaceBytes, std::uint64_t{out.sets} * job.layout.gaussian_count());
   out.lists = span_of(regions, kTileLists);
   out.subsets = span_of(regions, kSubsetLists);
   return out;

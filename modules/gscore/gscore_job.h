@@ -12,19 +12,32 @@
 
 namespace sgs::gscore {
 
+// Tiles are numbered frame after frame.
 struct GscoreJob : FrameJob {
-  std::uint32_t columns = 0, tile_count = 0;
-  RecordArray projected;  // places of records
-  RegionSpan lists;       // the pool of blocks
-  RegionSpan subsets;     // a stack of blocks for each core
+  std::uint32_t columns = 0, tile_count = 0;  // of a row; of all frames
+  RecordArray projected;                      // places of records, of one set after the other
+  RegionSpan lists;                           // a pool of blocks for each set
+  RegionSpan subsets;                         // a stack of blocks for each core
+  std::uint32_t sets = 1;                     // of projected records and their lists
 
+  std::uint32_t tiles_of_frame() const { return tile_count / frames(); }
+  std::uint32_t frame_of(std::uint32_t tile) const { return tile / tiles_of_frame(); }
+  std::uint32_t first_tile(std::uint32_t frame) const { return frame * tiles_of_frame(); }
   PixelRect pixels(std::uint32_t tile) const {
-    const int x = static_cast<int>(tile % columns) * kTilePx;
-    const int y = static_cast<int>(tile / columns) * kTilePx;
+    const int x = tile_x(tile) * kTilePx;
+    const int y = tile_y(tile) * kTilePx;
     return {x, y, std::min(x + kTilePx, view.width), std::min(y + kTilePx, view.height)};
   }
   int tile_x(std::uint32_t tile) const { return static_cast<int>(tile % columns); }
-  int tile_y(std::uint32_t tile) const { return static_cast<int>(tile / columns); }
+  int tile_y(std::uint32_t tile) const {
+    return static_cast<int>(tile % tiles_of_frame() / columns);
+  }
+  std::uint64_t record_address(std::uint32_t set, std::uint64_t record) const {
+    return projected.address(set * (projected.count / sets) + record);
+  }
+  RegionSpan lists_of(std::uint32_t set) const {
+    return lists.part(set * (lists.bytes / sets), lists.bytes / sets);
+  }
 };
 
 // Adds the working regions of a frame behind the scene's. Throws InputError where the pool of lists
@@ -32,7 +45,7 @@ struct GscoreJob : FrameJob {
 void add_regions(const GscoreConfig& config, FrameJob& job);
 
 // Tiles and regions of a job that has passed as a FrameJob.
-GscoreJob gscore_job(const FrameJob& job);
+GscoreJob gscore_job(const GscoreConfig& config, const FrameJob& job);
 
 // Phases of a pass, one after the other.
 struct Phases {

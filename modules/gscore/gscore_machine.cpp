@@ -63,7 +63,9 @@ GscoreMachine::GscoreMachine(const sc_core::sc_module_name& name, const GscoreCo
       config_(config),
       job_(job),
       clock_(config.clock_mhz, options.jitter_seed),
-      lister_("lister", context(), [this] { finish_frame(0, true); }) {
+      lister_("lister", context(),
+              [this](std::uint32_t frame) { finish_frame(frame, frame + 1 == job_.frames()); }) {
+  lister_.host(host);
   add_all_fifos(options);
   make_units();
   bind();

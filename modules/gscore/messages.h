@@ -21,7 +21,7 @@ struct Pass {
 // Within the culler: a chunk whose box touches the frame, or the end of its pass, or of the frame.
 struct VisibleChunk {
   static constexpr std::uint32_t kSramBytes = 7;  // first, count, marks
-  std::uint32_t first = 0, count = 0;
+  std::uint32_t first = 0, count = 0, frame = 0;
   bool end_of_pass = false, over = false;
 };
 
@@ -30,6 +30,7 @@ struct VisibleChunk {
 struct VisibleSlice {
   static constexpr std::uint32_t kSramBytes = 6;  // first, count, marks
   std::uint32_t first = 0, count = 0;
+  std::uint32_t frame = 0;
   bool end_of_pass = false;  // the last one of its pass
   bool over = false;
 };
@@ -45,7 +46,7 @@ struct Candidate {
   bool last = false;         // last of its slice
   bool end_of_pass = false;  // and that the last one of the pass
   bool over = false;         // no more slices
-  std::uint32_t slot = 0;
+  std::uint32_t slot = 0, frame = 0;
   SplitFirstHalf first{};
   std::uint64_t ticket = 0;  // read of the second half
   std::uint32_t buffer = 0;  // where it lands
@@ -72,6 +73,7 @@ struct TileJob {
   std::uint32_t tile = 0;         // tile of the frame
   std::uint32_t first_block = 0;  // first block in the pool
   std::uint32_t entries = 0;      // entries of its list
+  std::uint32_t set = 0;          // of lists and records
 };
 
 // Sorter -> rendering: entries of a tile in order, then its end.
@@ -87,6 +89,7 @@ struct SortedEntry {
   EntryMark mark = EntryMark::kEntry;
   std::uint32_t tile = 0, record = 0, bitmap = 0;
   std::uint32_t opacity = 0;  // listed_opacity()
+  std::uint32_t set = 0;      // of records
 };
 
 // Rendering -> lister: the last tile of the pass is in memory.

@@ -33,12 +33,6 @@ FrameJob ExactDesign::job(const StoredScene& scene, const Camera& camera) const 
   return job;
 }
 
-FrameJob ExactDesign::stream(const StoredScene& scene, const std::vector<Camera>& cameras) const {
-  FrameJob job = this->job(scene, cameras.front());
-  add_following(job, cameras);
-  return job;
-}
-
 bool ExactDesign::draws_reference() const {
   return config_.rendering.precision == BlendPrecision::kSingle &&
          config_.merge.on_overflow == OnOverflow::kSpill;

@@ -87,12 +87,6 @@ FrameJob PaperDesign::job(const StoredScene& scene, const Camera& camera) const 
   return job;
 }
 
-FrameJob PaperDesign::stream(const StoredScene& scene, const std::vector<Camera>& cameras) const {
-  FrameJob job = this->job(scene, cameras.front());
-  add_following(job, cameras);
-  return job;
-}
-
 std::optional<PaperOrderConfig> PaperDesign::paper_order() const {
   PaperOrderConfig order;
   order.group = config_.group();

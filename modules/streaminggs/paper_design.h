@@ -20,7 +20,6 @@ class PaperDesign : public MachineDesign {
   std::vector<const char*> fit_memories() override { return sram_.fit(); }
   void adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) override;
   FrameJob job(const StoredScene& scene, const Camera& camera) const override;
-  FrameJob stream(const StoredScene& scene, const std::vector<Camera>& cameras) const override;
   GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
                      DataSheet& sheet) const override;
   std::string golden_key() const override;

@@ -60,16 +60,6 @@ void add_frame_buffer(FrameJob& job) {
   job.frame_buffer = job.layout.regions.add("frame_buffer", pixel_bytes(job.frame_format) * pixels);
 }
 
-void add_following(FrameJob& job, const std::vector<Camera>& cameras) {
-  const RegionSpan second = job.layout.regions.add("second_frame_buffer", job.frame_buffer.bytes);
-  for (std::size_t frame = 1; frame < cameras.size(); ++frame) {
-    Picture picture = job;
-    picture.view = make_view<float>(cameras[frame]);
-    if (frame % 2 == 1) picture.frame_buffer = second;
-    job.following.push_back(picture);
-  }
-}
-
 GoldenFrame golden_frame(StreamingResult&& result, const std::vector<PixelRect>& groups) {
   const StreamingStats& stats = result.stats;
   GoldenFrame golden;

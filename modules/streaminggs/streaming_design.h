@@ -25,9 +25,6 @@ FrameJob scene_job(const StreamingConfig& config, const StoredScene& scene, cons
 void add_spill(FrameJob& job, std::uint64_t bytes);
 void add_frame_buffer(FrameJob& job);
 
-// Adds the frames that follow the first, and a second frame buffer: they take the two in turn.
-void add_following(FrameJob& job, const std::vector<Camera>& cameras);
-
 // The job of a streaming machine from a FrameJob: adds its groups.
 StreamingJob streaming_job(const StreamingConfig& config, const FrameJob& job);
 

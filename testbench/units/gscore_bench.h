@@ -50,7 +50,7 @@ inline GscoreJob gscore_frame(GscoreConfig& config, const UnitBench& bench, Fram
   config.memory_port = bench.context({}).built_for.memory_port;
   job.frame_format = config.framebuffer;
   add_regions(config, job);
-  return gscore_job(job);
+  return gscore_job(config, job);
 }
 
 // A layout of `gaussians` records that nobody reads.

@@ -38,7 +38,6 @@ Ccu::Ccu(const sc_core::sc_module_name& name, std::uint32_t index, const UnitCon
       index_(index),
       config_(context.config),
       job_(context.job),
-      sides_(frame_sides(job_.view)),
       cull_path_(cull_pipeline(config_)),
       convert_path_(convert_pipeline(config_, job_.layout.sh_degree())),
       first_bytes_(job_.layout.first_halves.record_bytes),
@@ -57,6 +56,9 @@ Ccu::Ccu(const sc_core::sc_module_name& name, std::uint32_t index, const UnitCon
       free_second_("free_second", context.clock, config_.ccu.second_half_slots,
                    words_of(second_bytes_)),
       converted_places_(convert_path_.depth_cycles) {
+  for (std::uint32_t f = 0; f < job_.frames(); ++f) {
+    sides_.push_back(frame_sides(job_.picture(f).view));
+  }
   fetched_.announce_to(candidate_came_);
   for (Activity* a : {&load_, &cull_, &fetch_, &convert_}) context.phases.projecting.add(*a);
   SC_THREAD(run_load);
@@ -88,6 +90,7 @@ void Ccu::load_visible() {
     Slice slice;
     slice.first = next.first;
     slice.count = next.count;
+    slice.frame = next.frame;
     slice.end_of_pass = next.end_of_pass;
     load(slice);
   }
@@ -102,6 +105,7 @@ void Ccu::load_passes() {
       Slice slice;
       slice.first = static_cast<std::uint32_t>(first);
       slice.count = std::min(size, count - slice.first);
+      slice.frame = job_.frame_of(pass.first);
       slice.end_of_pass = slice.first + slice.count == count;
       load(slice);
     }
@@ -147,8 +151,9 @@ void Ccu::cull(const Slice& slice) {
     Candidate candidate;
     candidate.slot = slice.first + i;
     candidate.first = read_first_half(job_.layout.split, input(slice.slot, i));
-    candidate.there =
-        may_touch_frame(job_.view, sides_, candidate.first.mean, candidate.first.extents.scale_max);
+    candidate.frame = slice.frame;
+    candidate.there = may_touch_frame(job_.picture(slice.frame).view, sides_[slice.frame],
+                                      candidate.first.mean, candidate.first.extents.scale_max);
     candidate.last = i + 1 == slice.count;
     candidate.end_of_pass = candidate.last && slice.end_of_pass;
     counters_.culled += candidate.there ? 0 : 1;
@@ -256,13 +261,13 @@ void Ccu::convert() {
   const std::uint64_t until = began + std::max<std::uint64_t>(interval, words_of(second_bytes_));
   convert_.works_until(until);
   convert_.work(1);
+  const View<float>& view = job_.picture(candidate.frame).view;
   Converted out;
   out.last = candidate.last;
   out.end_of_pass = candidate.end_of_pass;
-  out.there =
-      make_tile_geometry(job_.view, g.gaussian, config_.tiles.rules(), out.splat, out.boxes);
+  out.there = make_tile_geometry(view, g.gaussian, config_.tiles.rules(), out.splat, out.boxes);
   if (out.there) {
-    add_colour(job_.view, job_.layout.sh_degree(), g.gaussian.mean, g.sh, out.splat);
+    add_colour(view, job_.layout.sh_degree(), g.gaussian.mean, g.sh, out.splat);
   } else {
     ++counters_.unseen;
   }

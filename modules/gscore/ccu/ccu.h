@@ -49,7 +49,7 @@ class Ccu : public sc_core::sc_module {
  private:
   struct Slice {
     static constexpr std::uint32_t kSramBytes = 8;  // first, count, marks
-    std::uint32_t first = 0, count = 0, slot = 0;
+    std::uint32_t first = 0, count = 0, slot = 0, frame = 0;
     bool end_of_pass = false, over = false;
     std::uint64_t ticket = 0;
   };
@@ -76,7 +76,7 @@ class Ccu : public sc_core::sc_module {
   const std::uint32_t index_;
   const GscoreConfig config_;
   const GscoreJob& job_;
-  const FrameSides<float> sides_;
+  std::vector<FrameSides<float>> sides_;  // [frame]
   const Datapath cull_path_, convert_path_;
   const std::uint32_t first_bytes_, second_bytes_;
   Activity load_, cull_, fetch_, convert_;

@@ -29,13 +29,16 @@ ChunkCuller::ChunkCuller(const sc_core::sc_module_name& name, const UnitContext&
       memory("memory", context.config.memory_port, context.clock.period()),
       config_(context.config),
       job_(context.job),
-      frustum_(job_.view, {0, 0, job_.view.width, job_.view.height}),
       walk_("walk", context.clock),
       hand_out_("hand_out", context.clock),
       nodes_(config_.culling.nodes_in_flight, job_.layout.chunk_table().nodes),
       tester_(context.clock, chunk_test_pipeline(config_), config_.culling.nodes_in_test,
               chunk_test_pipeline(config_).depth_cycles),
       visible_("visible", context.clock, kVisibleChunks) {
+  for (std::uint32_t f = 0; f < job_.frames(); ++f) {
+    const View<float>& view = job_.picture(f).view;
+    frusta_.emplace_back(view, PixelRect{0, 0, view.width, view.height});
+  }
   tester_.announce_to(news_);
   for (Activity* a : {&walk_, &tester_.activity(), &hand_out_}) context.phases.projecting.add(*a);
   SC_THREAD(run_walk);
@@ -47,8 +50,10 @@ ChunkCuller::ChunkCuller(const sc_core::sc_module_name& name, const UnitContext&
 void ChunkCuller::run_walk() {
   for (Pass pass = passes->pop(walk_); !pass.over; pass = passes->pop(walk_)) {
     ++counters_.passes;
+    frame_ = job_.frame_of(pass.first);
     descend();
     VisibleChunk end;
+    end.frame = frame_;
     end.end_of_pass = true;
     visible_.push(end, walk_);
     walk_.work(1);
@@ -109,7 +114,7 @@ bool ChunkCuller::open_next() {
   descent_.open(node.record, node.touching, node.unasked,
                 [&](std::uint32_t first, std::uint32_t count) {
                   ++counters_.chunks;
-                  visible_.push({first, count}, walk_);
+                  visible_.push({first, count, frame_}, walk_);
                   walk_.work(1);
                 });
   return true;
@@ -118,7 +123,7 @@ bool ChunkCuller::open_next() {
 bool ChunkCuller::take_tested() {
   if (!tester_.can_take()) return false;
   const NodeInTest<AskedNode> node = tester_.take(walk_);
-  const std::uint8_t touching = touching_children(node.record, frustum_);
+  const std::uint8_t touching = touching_children(node.record, frusta_[frame_]);
   tested_.push_back({node.entry.at, node.record, touching, touching_inner(node.record, touching)});
   walk_.work(1);
   return true;
@@ -162,6 +167,7 @@ void ChunkCuller::run_tests() {
 void ChunkCuller::run_hand_out() {
   for (VisibleChunk chunk = visible_.pop(hand_out_); !chunk.over; chunk = visible_.pop(hand_out_)) {
     hand_out_.work(1);
+    frame_handed_out_ = chunk.frame;
     if (chunk.end_of_pass) {
       end_pass();
       continue;
@@ -186,7 +192,7 @@ void ChunkCuller::cut_run(bool all) {
     if (whole > run_end_ && !all) return;
     const std::uint32_t end = std::min(whole, run_end_);
     if (held_) hand_out(*held_);
-    held_ = VisibleSlice{run_first_, end - run_first_};
+    held_ = VisibleSlice{run_first_, end - run_first_, frame_handed_out_};
     run_first_ = end;
   }
 }
@@ -201,7 +207,7 @@ void ChunkCuller::hand_out(const VisibleSlice& slice) {
 // No slice at all is one without a Gaussian; of an empty scene nobody waits for any.
 void ChunkCuller::end_pass() {
   cut_run(true);
-  VisibleSlice last = held_.value_or(VisibleSlice{});
+  VisibleSlice last = held_.value_or(VisibleSlice{0, 0, frame_handed_out_});
   last.end_of_pass = true;
   if (job_.layout.gaussian_count() > 0) hand_out(last);
   held_.reset();

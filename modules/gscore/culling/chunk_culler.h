@@ -80,7 +80,9 @@ class ChunkCuller : public sc_core::sc_module {
 
   const GscoreConfig config_;
   const GscoreJob& job_;
-  const GroupFrustum frustum_;
+  std::vector<GroupFrustum> frusta_;  // [frame]
+  std::uint32_t frame_ = 0;           // of the pass that is walked
+  std::uint32_t frame_handed_out_ = 0;
   Activity walk_, hand_out_;
   ChunkDescent descent_;
   NodeBuffer<AskedNode> nodes_;

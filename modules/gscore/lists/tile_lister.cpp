@@ -73,47 +73,63 @@ std::uint32_t records_at_once(const GscoreConfig& config) {
 }  // namespace
 
 TileLister::TileLister(const sc_core::sc_module_name& name, const UnitContext& context,
-                       std::function<void()> on_done)
+                       std::function<void(std::uint32_t frame)> on_drawn)
     : sc_module(name),
       memory("memory", context.config.memory_port, context.clock.period()),
       config_(context.config),
       job_(context.job),
       phases_(context.phases),
       blocks_(config_.blocks()),
-      on_done_(std::move(on_done)),
+      on_drawn_(std::move(on_drawn)),
       tile_path_(tile_test_pipeline(config_)),
       part_path_(has_parts(config_) ? std::optional(part_test_pipeline(config_)) : std::nullopt),
       test_("test", context.clock),
       list_("list", context.clock),
+      draw_("draw", context.clock),
       test_passes_("test_passes", context.clock, 1),
       tested_(tested_gaussians(config_)),
       listed_("listed", context.clock, listed_entries(config_),
               static_cast<std::uint32_t>(test_pipelines(config_).depth_cycles)),
-      ends_(config_.lists.tiles),
+      ends_(config_.lists.sets, std::vector<ListEnd>(config_.lists.tiles)),
+      projected_("projected", context.clock, 1),
+      free_sets_("free_sets", context.clock, config_.lists.sets),
       lines_(config_.lists.lines, Line{LineBuffer(blocks_.line_bytes)}),
       records_(std::size_t{records_at_once(config_)} * kRecordPlaceBytes) {
   for (Activity* a : {&test_, &list_}) context.phases.projecting.add(*a);
   SC_THREAD(run_test);
   SC_THREAD(run_list);
+  if (overlaps()) SC_THREAD(run_draw);
 }
 
 // A pass that has overflowed is made again with half of its tiles.
 void TileLister::run_list() {
-  asked_ = std::make_unique<FifoSelector<TileRequest>>(requests);
-  std::uint32_t most = std::min(config_.lists.tiles, job_.tile_count);
-  for (Pass pass; pass.first < job_.tile_count;) {
+  std::uint32_t most = std::min(config_.lists.tiles, job_.tiles_of_frame());
+  // Whoever is projected while another is drawn waits for no phase.
+  if (overlaps()) {
     phases_.projecting.begin();
-    pass.end = std::min(pass.first + most, job_.tile_count);
+    phases_.drawing.begin();
+  }
+  for (Pass pass; pass.first < job_.tile_count;) {
+    const std::uint32_t frame = job_.frame_of(pass.first);
+    if (pass.first == job_.first_tile(frame)) await_pose(host, frame, list_);
+    if (!overlaps()) phases_.projecting.begin();
+    pass.end = std::min(pass.first + most, job_.first_tile(frame + 1));
     ++counters_.passes;
+    if (overlaps() && pass.first != projecting_) set_ = free_sets_.pop(list_, WaitFor::kRoom);
+    projecting_ = pass.first;
     if (!project(pass)) {
       ++counters_.passes_overflowed;
       most = (pass.end - pass.first + 1) / 2;
       continue;
     }
-    phases_.projecting.end();
-    phases_.drawing.begin();
-    hand_out(pass);
-    phases_.drawing.end();
+    if (overlaps()) {
+      projected_.push({pass, set_}, list_);
+    } else {
+      phases_.projecting.end();
+      phases_.drawing.begin();
+      draw({pass, 0}, list_);
+      phases_.drawing.end();
+    }
     pass.first = pass.end;
   }
   Pass over;
@@ -121,7 +137,17 @@ void TileLister::run_list() {
   for (int c = 0; c < passes.size(); ++c) passes[c]->push(over, list_);
   test_passes_.push(over, list_);
   list_.idles();
-  on_done_();
+}
+
+void TileLister::run_draw() {
+  for (std::uint32_t set = 0; set < config_.lists.sets; ++set) free_sets_.push(set, draw_);
+  for (Pass pass; pass.end < job_.tile_count;) {
+    const ProjectedPass next = projected_.pop(draw_);
+    pass = next.pass;
+    draw(next, draw_);
+    free_sets_.push(next.set, draw_);
+  }
+  draw_.idles();
 }
 
 bool TileLister::project(const Pass& pass) {
@@ -130,7 +156,7 @@ bool TileLister::project(const Pass& pass) {
   test_passes_.push(pass, list_);
   // The table is cleared while the first Gaussians are on their way; a row of it a cycle.
   list_.work(tiles);
-  std::fill(ends_.begin(), ends_.begin() + tiles, ListEnd{});
+  std::fill_n(ends_[set_].begin(), tiles, ListEnd{});
   counters_.table_writes += tiles;
   for (Line& line : lines_) line.tile = 0;  // as each was looked at, at the end of the pass before
   next_block_ = tiles;
@@ -172,7 +198,7 @@ void TileLister::put_record(const Splat& splat) {
 void TileLister::flush_records() {
   if (waiting_records_ == 0) return;
   const std::uint32_t bytes = waiting_records_ * kRecordPlaceBytes;
-  start_write(memory, list_, job_.projected.address(record_number_ - waiting_records_),
+  start_write(memory, list_, job_.record_address(set_, record_number_ - waiting_records_),
               records_.data(), bytes, job_.projected.region);
   waiting_records_ = 0;
 }
@@ -180,7 +206,7 @@ void TileLister::flush_records() {
 // Puts an entry behind a tile's list. The first block of tile t has the number t. The link to the
 // next block must be there when the first line leaves, so that block is taken now.
 void TileLister::put_entry(std::uint32_t tile, const TileEntry& entry) {
-  ListEnd& end = ends_[tile];
+  ListEnd& end = ends_[set_][tile];
   ++counters_.table_reads;
   ++counters_.table_writes;
   ++counters_.line_looks;
@@ -218,37 +244,43 @@ void TileLister::flush_line(Line& line) {
   const std::uint64_t at = line.buffer.address(blocks_.line_bytes);
   const std::uint32_t bytes = line.buffer.new_byte_count();
   counters_.line_reads += line_words(static_cast<std::uint32_t>(at % blocks_.line_bytes), bytes);
-  start_write(memory, list_, job_.lists.base + at, line.buffer.new_bytes(), bytes,
+  start_write(memory, list_, job_.lists_of(set_).base + at, line.buffer.new_bytes(), bytes,
               job_.lists.region);
   line.buffer.written();
 }
 
-// One request of each core is answered by the end of the pass.
-void TileLister::hand_out(const Pass& pass) {
+// Hands the tiles of a pass out and waits until they are drawn. One request of each core is
+// answered by the end of the pass.
+void TileLister::draw(const ProjectedPass& projected, Activity& by) {
+  const Pass& pass = projected.pass;
+  const std::uint32_t frame = job_.frame_of(pass.first);
+  await_buffer(host, frame, by);
+  if (asked_ == nullptr) asked_ = std::make_unique<FifoSelector<TileRequest>>(requests);
   const auto any = [](int) { return true; };
   for (std::uint32_t tile = pass.first; tile < pass.end; ++tile) {
-    const int core = asked_->select(list_, any);
-    requests[core]->pop(list_);
-    list_.takes_up_tile(tile);
-    list_.work(1);
+    const int core = asked_->select(by, any);
+    requests[core]->pop(by);
+    by.takes_up_tile(tile);
+    by.work(1);
     ++counters_.table_reads;
     ++counters_.tiles;
-    const ListEnd& end = ends_[tile - pass.first];
+    const ListEnd& end = ends_[projected.set][tile - pass.first];
     counters_.tiles_empty += end.entries == 0 ? 1 : 0;
     counters_.list_entries_max.raise_to(end.entries);
-    jobs[core]->push({TileMark::kTile, tile, tile - pass.first, end.entries}, list_);
+    jobs[core]->push({TileMark::kTile, tile, tile - pass.first, end.entries, projected.set}, by);
   }
   const TileMark mark = pass.end == job_.tile_count ? TileMark::kEndOfFrame : TileMark::kEndOfPass;
   std::vector<bool> told(static_cast<std::size_t>(requests.size()));
   for (int c = 0; c < requests.size(); ++c) {
     const int core =
-        asked_->select(list_, [&](int index) { return !told[static_cast<std::size_t>(index)]; });
+        asked_->select(by, [&](int index) { return !told[static_cast<std::size_t>(index)]; });
     told[static_cast<std::size_t>(core)] = true;
-    requests[core]->pop(list_);
-    list_.work(1);
-    jobs[core]->push({mark, 0, 0, 0}, list_);
+    requests[core]->pop(by);
+    by.work(1);
+    jobs[core]->push({mark, 0, 0, 0, 0}, by);
   }
-  for (int c = 0; c < done.size(); ++c) done[c]->pop(list_);
+  for (int c = 0; c < done.size(); ++c) done[c]->pop(by);
+  if (pass.end == job_.first_tile(frame + 1)) on_drawn_(frame);
 }
 
 SramUses TileLister::sram_uses(const GscoreConfig& c) {
@@ -275,6 +307,7 @@ SramUses TileLister::sram_uses(const GscoreConfig& c) {
                kOneOfEach),
       outstanding_table(kBuffer, c.memory_port),
       unanswered_writes(kListWrites, kBuffer, c.memory_port, c.memory_port.max_transaction_bytes)};
+  uses.front().count = c.lists.sets;
   if (has_parts(c)) {
     uses.push_back(sram_use(kTestedBoxes, kBuffer, {{tested, "Gaussians"}, {kTestedBoxBytes, "B"}},
                             {8 * kTestedBoxBytes}, kOneOfEach));
@@ -286,6 +319,7 @@ void TileLister::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(test_, "tile tests", "tests tiles and their parts");
   sheet.activity(list_, "listing", "lists Gaussians in tiles, then hands tiles out");
+  if (overlaps()) sheet.activity(draw_, "handing out", "hands tiles out");
   sheet.counters(counters_);
   sheet.sram(sram_uses(config_));
   sheet.accesses(kEnds, counters_.table_reads, counters_.table_writes);

@@ -15,6 +15,7 @@
 #include <systemc>
 #include <vector>
 
+#include "modules/frame_host.h"
 #include "modules/gscore/gscore_job.h"
 #include "modules/gscore/line_buffer.h"
 #include "modules/gscore/messages.h"
@@ -32,11 +33,12 @@ class TileLister : public sc_core::sc_module {
   FifoIns<TileRequest> requests{"requests"};  // one a core
   FifoOuts<TileJob> jobs{"jobs"};             // one a core
   FifoIns<PassDone> done{"done"};             // one a core
+  FrameHostPort host{"host"};
   MemoryPort memory;
 
   SC_HAS_PROCESS(TileLister);
   TileLister(const sc_core::sc_module_name& name, const UnitContext& context,
-             std::function<void()> on_done);
+             std::function<void(std::uint32_t frame)> on_drawn);
 
   static SramUses sram_uses(const GscoreConfig& config);
   void publish(DataSheet& sheet);
@@ -61,8 +63,16 @@ class TileLister : public sc_core::sc_module {
     bool first = false, end = false;
   };
 
+  // A pass whose lists are in memory.
+  struct ProjectedPass {
+    static constexpr std::uint32_t kSramBytes = Pass::kSramBytes + 1;
+    Pass pass;
+    std::uint32_t set = 0;
+  };
+
   void run_test();  // thread
   void run_list();  // thread
+  void run_draw();  // thread: passes that are projected, where that is not the list's part
   void test_tiles(const Converted& gaussian, const Pass& pass);
   // True if all lists of the pass are in memory; if not, the pool was too small.
   bool project(const Pass& pass);
@@ -71,22 +81,27 @@ class TileLister : public sc_core::sc_module {
   void flush_records();
   void put_entry(std::uint32_t tile, const TileEntry& entry);
   void flush_line(Line& line);
-  void hand_out(const Pass& pass);
+  bool overlaps() const { return config_.lists.sets > 1; }
+  void draw(const ProjectedPass& pass, Activity& by);
 
   const GscoreConfig config_;
   const GscoreJob& job_;
   Phases& phases_;
   const BlockFormat blocks_;
-  const std::function<void()> on_done_;
+  const std::function<void(std::uint32_t frame)> on_drawn_;
   const Datapath tile_path_;
   const std::optional<Datapath> part_path_;  // where tiles have parts
-  Activity test_, list_;
+  Activity test_, list_, draw_;
   TimedFifo<Pass> test_passes_;
   std::vector<TestedGaussian> tested_;
   std::uint32_t next_tested_ = 0;
   TimedFifo<ListedTile> listed_;
   std::unique_ptr<FifoSelector<TileRequest>> asked_;  // made by the thread
-  std::vector<ListEnd> ends_;                         // [tile of the pass]
+  std::vector<std::vector<ListEnd>> ends_;            // [set][tile of the pass]
+  TimedFifo<ProjectedPass> projected_;                // with two sets
+  TimedFifo<std::uint32_t> free_sets_;
+  std::uint32_t set_ = 0;                    // that is written
+  std::optional<std::uint32_t> projecting_;  // first tile of the pass
   std::vector<Line> lines_;
   std::vector<std::byte> records_;  // records that wait until there are enough for a transaction
   std::uint32_t waiting_records_ = 0;

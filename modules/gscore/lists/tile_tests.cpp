@@ -38,8 +38,9 @@ void TileLister::test_tiles(const Converted& gaussian, const Pass& pass) {
   ++counters_.gaussians;
   const auto columns = static_cast<int>(job_.columns);
   const PixelRect& tiles = gaussian.boxes.tiles;
-  const int first_row = static_cast<int>(pass.first) / columns;
-  const int end_row = static_cast<int>(cycles_for(pass.end, job_.columns));
+  const std::uint32_t of_frame = job_.first_tile(job_.frame_of(pass.first));
+  const int first_row = static_cast<int>(pass.first - of_frame) / columns;
+  const int end_row = static_cast<int>(cycles_for(pass.end - of_frame, job_.columns));
   if (tiles.y0 >= end_row || tiles.y1 <= first_row) {
     test_.work(1);
     ++counters_.gaussians_off_pass;
@@ -59,7 +60,7 @@ void TileLister::test_tiles(const Converted& gaussian, const Pass& pass) {
       ++counters_.tile_steps;
       for (int k = x; k < std::min(x + at_once, tiles.x1); ++k) {
         ++counters_.tile_tests;
-        out.tile = static_cast<std::uint32_t>(y * columns + k);
+        out.tile = of_frame + static_cast<std::uint32_t>(y * columns + k);
         if (out.tile < pass.first || out.tile >= pass.end) continue;
         if (!touches_tile(gaussian.boxes, k, y)) continue;
         wait_for_turn(test_, part_interval);

@@ -105,9 +105,10 @@ void RenderCore::run_fetch() {
     if (mark == EntryMark::kEntry) next.slot = free_records_.pop(fetch_, WaitFor::kRoom);
     fetch_.work(1);
     if (mark == EntryMark::kEntry) {
-      next.ticket = start_read(record_memory, fetch_, job_.projected.address(next.entry.record),
-                               records_.data() + std::size_t{next.slot} * record_bytes_,
-                               record_bytes_, job_.projected.region);
+      next.ticket =
+          start_read(record_memory, fetch_, job_.record_address(next.entry.set, next.entry.record),
+                     records_.data() + std::size_t{next.slot} * record_bytes_, record_bytes_,
+                     job_.projected.region);
       ++counters_.records;
     }
     fetched_.push(next, fetch_);
@@ -225,7 +226,7 @@ void RenderCore::run_drain() {
     mark = next.mark;
     if (mark == EntryMark::kEndOfTile) {
       drain_.takes_up_tile(next.tile);
-      write_tile(*next.state);
+      write_tile(*next.state, job_.picture(job_.frame_of(next.tile)));
       free_pixels_.push(0, drain_);
       continue;
     }
@@ -237,7 +238,7 @@ void RenderCore::run_drain() {
 }
 
 // Each pixel is cleared as it is read.
-void RenderCore::write_tile(const GroupState& state) {
+void RenderCore::write_tile(const GroupState& state, const Picture& picture) {
   const PixelRect& pixels = state.pixels();
   const auto width = static_cast<std::uint32_t>(pixels.width());
   const std::uint32_t bytes = pixel_bytes(job_.frame_format);
@@ -250,8 +251,9 @@ void RenderCore::write_tile(const GroupState& state) {
                    row.data() + static_cast<std::size_t>(x - pixels.x0) * bytes);
     }
     rows.make(row_cycles);
-    rows.write(job_.pixel_address(pixels.x0, y), row.data(), static_cast<std::uint32_t>(row.size()),
-               job_.frame_buffer.region, y + 1 < pixels.y1 ? row_cycles : 0);
+    rows.write(picture.pixel_address(pixels.x0, y), row.data(),
+               static_cast<std::uint32_t>(row.size()), picture.frame_buffer.region,
+               y + 1 < pixels.y1 ? row_cycles : 0);
     counters_.pixels += width;
   }
 }

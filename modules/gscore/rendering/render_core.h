@@ -61,7 +61,7 @@ class RenderCore : public sc_core::sc_module {
   std::uint64_t finished_from(int part) const;
   // Latency from a splat's turn to the pixels behind its first block.
   std::uint64_t depth_cycles() const;
-  void write_tile(const GroupState& state);
+  void write_tile(const GroupState& state, const Picture& picture);
 
   const GscoreConfig config_;
   const GscoreJob& job_;

@@ -72,6 +72,7 @@ void TileSorter::run_sort() {
   for (EntryMark mark = EntryMark::kEntry; mark != EntryMark::kEndOfFrame;) {
     Loaded list = loaded_.pop(sort_);
     mark = list.mark;
+    sorted_set_ = list.set;
     if (of_tile(mark)) sort_.takes_up_tile(list.tile);
     if (mark == EntryMark::kEntry) {
       sort(list.tile, std::move(list.entries), 0, list.keys);
@@ -147,7 +148,8 @@ void TileSorter::emit(std::uint32_t tile, const std::vector<TileEntry>& entries,
   sort_.work(reads - 1);
   for (const TileEntry& entry : entries) {
     sort_.work(1);
-    sorted->push({EntryMark::kEntry, tile, entry.record, entry.bitmap, entry.opacity}, sort_);
+    sorted->push({EntryMark::kEntry, tile, entry.record, entry.bitmap, entry.opacity, sorted_set_},
+                 sort_);
   }
   counters_.entries_sorted += entries.size();
   counters_.list_reads += entries.size();

@@ -54,6 +54,7 @@ class TileSorter : public sc_core::sc_module {
     std::uint32_t tile = 0;
     std::vector<TileEntry> entries;
     KeyRange keys;
+    std::uint32_t set = 0;  // of records
   };
   // A block on its way.
   struct Block {
@@ -88,8 +89,9 @@ class TileSorter : public sc_core::sc_module {
   const BlockFormat blocks_;
   const RegionSpan stack_;  // blocks for subsets
   Activity load_, sort_;
-  std::vector<std::byte> stages_;  // [2] blocks
-  std::uint32_t next_block_ = 0;   // next free block of the stack
+  std::vector<std::byte> stages_;           // [2] blocks
+  std::uint32_t next_block_ = 0;            // next free block of the stack
+  std::uint32_t set_ = 0, sorted_set_ = 0;  // of records, of the tile that is loaded, and sorted
   TimedFifo<Loaded> loaded_;
   TimedFifo<std::uint32_t> free_lists_;
 

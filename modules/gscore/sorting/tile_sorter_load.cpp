@@ -17,12 +17,13 @@ void TileSorter::run_load() {
     mark = job.mark;
     Loaded end;
     end.tile = job.tile;
+    end.set = set_ = job.set;
     if (mark == TileMark::kTile) {
       load_.takes_up_tile(job.tile);
       ++counters_.tiles;
       next_block_ = 0;
       Chain list;
-      list.region = job_.lists;
+      list.region = job_.lists_of(job.set);
       list.block = job.first_block;
       list.entries = job.entries;
       load(job.tile, list, 0);
@@ -82,7 +83,7 @@ void TileSorter::load(std::uint32_t tile, const Chain& list, std::uint32_t level
 
 void TileSorter::load_on_chip(std::uint32_t tile, const std::vector<TileEntry>& entries,
                               const KeyRange& keys) {
-  loaded_.push({EntryMark::kEntry, tile, entries, keys}, load_);
+  loaded_.push({EntryMark::kEntry, tile, entries, keys, set_}, load_);
 }
 
 TileSorter::Block TileSorter::ask_for(const Chain& list, std::uint32_t block, std::uint32_t entries,

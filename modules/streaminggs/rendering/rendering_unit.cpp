@@ -111,7 +111,7 @@ void RenderingUnit::run_drain() {
   for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
     take_up_group(drain_, memory, group);
     const std::shared_ptr<GroupState> state = finished_.pop(drain_);
-    if (job_.begins_frame(group)) await_buffer(job_.frame_of(group));
+    if (job_.begins_frame(group)) await_buffer(host, job_.frame_of(group), drain_);
     write_group(*state, job_.picture_of(group));
     free_buffers_.push(0, drain_);
     if (job_.ends_frame(group)) {
@@ -121,17 +121,6 @@ void RenderingUnit::run_drain() {
   }
   await_all(memory, drain_);
   drain_.idles();
-}
-
-// The frame before the last was shown from the same bytes.
-void RenderingUnit::await_buffer(std::uint32_t frame) {
-  if (host.size() == 0) return;
-  while (!host->buffer_free(frame)) {
-    drain_.waits_for(WaitFor::kRoom, host);
-    sc_core::wait(host->news());
-    drain_.clock().align();
-    drain_.works();
-  }
 }
 
 void RenderingUnit::run_tell() {

@@ -75,7 +75,6 @@ class RenderingUnit : public sc_core::sc_module {
   void publish_ledger(DataSheet& sheet);
   void publish_dispatcher(DataSheet& sheet);
   void publish_pixels(DataSheet& sheet);
-  void await_buffer(std::uint32_t frame);
   void write_group(const GroupState& state, const Picture& picture);
 
   const RenderingConfig config_;

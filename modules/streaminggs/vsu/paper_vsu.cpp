@@ -81,15 +81,7 @@ void PaperVsu::run_traverse() {
 }
 
 void PaperVsu::take_up_frame(std::uint32_t frame) {
-  if (host.size() > 0) {
-    while (!host->pose_known(frame)) {
-      traverse_.waits_for(WaitFor::kInput, host);
-      sc_core::wait(host->news());
-      traverse_.clock().align();
-      traverse_.works();
-    }
-    host->takes_pose(frame);
-  }
+  await_pose(host, frame, traverse_);
   if (samples_) samples_->take_up_view(job_.picture(frame).view);
 }
 

@@ -41,7 +41,7 @@ TEST_CASE("gscore job: regions hold a record, an entry and a split of every Gaus
   for (const Case& of : {Case{0, 0}, Case{512, 0}, Case{513, 513 / kBlockEntries + 2 * 8},
                          Case{1000, 1000 / kBlockEntries + 2 * 8}}) {
     INFO(of.gaussians);
-    const GscoreJob job = gscore_job(job_of(of.gaussians, two_cores()));
+    const GscoreJob job = gscore_job(two_cores(), job_of(of.gaussians, two_cores()));
     CHECK(job.projected.record_bytes == 32);
     CHECK(job.lists.bytes == 15 * kBlockBytes);
     CHECK(job.lists.base >= job.projected.base + std::uint64_t{32} * of.gaussians);
@@ -63,7 +63,7 @@ TEST_CASE("gscore job: the pool is refused where it cannot hold all Gaussians in
 }
 
 TEST_CASE("gscore job: tiles row by row, cut at the frame's edge") {
-  const GscoreJob job = gscore_job(job_of(1, two_cores()));
+  const GscoreJob job = gscore_job(two_cores(), job_of(1, two_cores()));
   CHECK(job.columns == 3);
   CHECK(job.tile_count == 6);
   const auto pixels = [&](std::uint32_t tile) {

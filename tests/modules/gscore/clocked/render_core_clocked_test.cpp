@@ -70,7 +70,7 @@ Takings clocked_render_core(const CoreWorkload& load, std::uint64_t seed) {
   frame.frame_format = config.framebuffer;
   frame.layout = tb::empty_layout(static_cast<std::uint32_t>(plan.records.size()));
   add_regions(config, frame);
-  const GscoreJob job = gscore_job(frame);
+  const GscoreJob job = gscore_job(config, frame);
   ClockedRenderCore unit(scheduled(load, config), tiles_of(job));
   ClockedFifo<CoreItem> sorted(load.sorted_entries);
   ClockedSource<CoreItem> source(items_of(plan, config, job),
