@@ -61,4 +61,14 @@ void DramConfig::validate() const {
   AddressMapping(*this, device);
 }
 
+DramConfig DramConfig::at_rest() const {
+  constexpr std::uint32_t kAtOnce = 1;
+  DramConfig config = *this;
+  if (between_frames == BetweenFrames::kByIdleCycles) return config;
+  const bool power_down = between_frames == BetweenFrames::kPowerDown;
+  config.power_down_idle_cycles = power_down ? kAtOnce : 0;
+  config.self_refresh_idle_cycles = power_down ? 0 : kAtOnce;
+  return config;
+}
+
 }  // namespace sgs

@@ -60,6 +60,8 @@ struct DramConfig {
   std::uint32_t buses(const Memspec& device) const;
   // A number that is given has no band.
   IoEnergy io_pj_per_bit_of(const Memspec& device) const;
+  // As within a frame, with the idle times that between_frames stands for.
+  DramConfig at_rest() const;
   // Without a value of its own none where the device names the bank of a refresh, else the
   // memspec's limit.
   std::uint32_t refreshes_postponed(const Memspec& device) const;

@@ -52,6 +52,11 @@ bool DramController::idle() const {
   return open_transactions_ == 0 && (transport_ != Transport::kBlocking || busy_until_ <= now());
 }
 
+void DramController::rest(bool rests) {
+  if (transport_ == Transport::kBlocking) return;
+  for (Channel& channel : channels_) channel.queued.rest(rests, now());
+}
+
 std::uint64_t DramController::cycle_of(const sc_core::sc_time& time) const {
   return (time.value() + clock_period_.value() - 1) / clock_period_.value();
 }

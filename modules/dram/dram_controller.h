@@ -51,6 +51,10 @@ class DramController : public sc_core::sc_module, public CommandSource {
   void remove_command_sink(CommandSink& sink) override { commands_.remove(sink); }
   void catch_up() override;
 
+  // No frame is under way from now on, or one is: idle ranks go where between_frames sends them,
+  // and requests that come nevertheless wake them. Of non-blocking transport alone.
+  void rest(bool rests);
+
   // No request waits or is under way, posted writes included.
   bool idle() const;
 

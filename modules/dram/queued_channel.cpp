@@ -93,6 +93,12 @@ void QueuedChannel::advance(std::uint64_t cycle) {
   hand_on_before(cycle);
 }
 
+void QueuedChannel::rest(bool rests, std::uint64_t cycle) {
+  advance(cycle);
+  for (RankMaintenance& rank : maintenance_) rank.rest(rests, cycle);
+  best_known_ = false;
+}
+
 std::uint64_t QueuedChannel::next_decision() { return empty() ? kNever : best().cycle; }
 
 std::uint64_t QueuedChannel::next_completion() {

@@ -41,6 +41,9 @@ class QueuedChannel {
   // Takes all decisions that fall before `cycle`.
   void advance(std::uint64_t cycle);
 
+  // As RankMaintenance has it, of all ranks.
+  void rest(bool rests, std::uint64_t cycle);
+
   // No request completes before this cycle, whatever arrives; kNever with nothing to do.
   std::uint64_t next_completion();
   // No queue entry becomes free before this cycle.

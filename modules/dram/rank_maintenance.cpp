@@ -13,6 +13,10 @@ std::uint64_t after(std::uint64_t cycle, std::uint64_t delay) {
 }
 }  // namespace
 
+RankMaintenance::IdleTimes::IdleTimes(const DramConfig& config)
+    : power_down(idle_limit(config.power_down_idle_cycles)),
+      self_refresh(idle_limit(config.self_refresh_idle_cycles)) {}
+
 RankMaintenance::RankMaintenance(const DramConfig& config, const Memspec& memspec,
                                  std::uint32_t rank)
     : mode_(config.refresh),
@@ -25,8 +29,8 @@ RankMaintenance::RankMaintenance(const DramConfig& config, const Memspec& memspe
       interval_(config.refresh == RefreshMode::kPerBank ? memspec.timing_cycles.refi_bank
                                                         : memspec.timing_cycles.refi),
       postpone_(interval_ * config.refreshes_postponed(memspec)),
-      power_down_idle_(idle_limit(config.power_down_idle_cycles)),
-      self_refresh_idle_(idle_limit(config.self_refresh_idle_cycles)),
+      within_frame_(config),
+      between_frames_(config.at_rest()),
       due_sets_(all_of(sets_)) {
   if (mode_ == RefreshMode::kOff) return;
   refresh_due_ = interval_;
@@ -93,8 +97,7 @@ Candidate RankMaintenance::next(const DeviceTiming& device, std::uint64_t wanted
       return {std::max(wanted_from, device.earliest_exit(rank_)), Command::kSelfRefreshExit, rank_,
               0};
     case State::kPowerDown: {
-      const std::uint64_t leave =
-          std::min({wanted_from, refresh_due_, after(idle_since_, self_refresh_idle_)});
+      const std::uint64_t leave = std::min({wanted_from, refresh_due_, self_refresh_from()});
       if (leave == kNever) return {};
       return {std::max(leave, device.earliest_exit(rank_)), Command::kPowerDownExit, rank_, 0};
     }
@@ -135,8 +138,8 @@ Candidate RankMaintenance::refresh_of_set(const DeviceTiming& device, std::uint6
 }
 
 Candidate RankMaintenance::sleep(const DeviceTiming& device) const {
-  const std::uint64_t self_refresh_from = after(idle_since_, self_refresh_idle_);
-  const std::uint64_t power_down_from = after(idle_since_, power_down_idle_);
+  const std::uint64_t self_refresh_from = this->self_refresh_from();
+  const std::uint64_t power_down_from = this->power_down_from();
   const std::uint64_t power_down =
       power_down_from == kNever ? kNever
                                 : std::max(power_down_from, device.earliest_power_down(rank_));
@@ -147,6 +150,21 @@ Candidate RankMaintenance::sleep(const DeviceTiming& device) const {
             Command::kPrechargeAll, rank_, 0};
   return {std::max(self_refresh_from, device.earliest_self_refresh(rank_)),
           Command::kSelfRefreshEnter, rank_, 0};
+}
+
+std::uint64_t RankMaintenance::power_down_from() const {
+  return after(std::max(idle_since_, rests_since_),
+               (rests_ ? between_frames_ : within_frame_).power_down);
+}
+
+std::uint64_t RankMaintenance::self_refresh_from() const {
+  return after(std::max(idle_since_, rests_since_),
+               (rests_ ? between_frames_ : within_frame_).self_refresh);
+}
+
+void RankMaintenance::rest(bool rests, std::uint64_t cycle) {
+  rests_ = rests;
+  rests_since_ = rests ? cycle : 0;
 }
 
 void RankMaintenance::on_command(Command command, std::uint64_t cycle) {

@@ -47,15 +47,26 @@ class RankMaintenance {
   bool powered_up() const { return state_ == State::kUp; }
   std::uint64_t refresh_due() const { return refresh_due_; }
 
+  // From `cycle` on, until it is told otherwise, idle times are those between frames, or those
+  // within a frame.
+  void rest(bool rests, std::uint64_t cycle);
+
   // Every command of the rank is told to it, requests' included.
   void on_command(Command command, std::uint64_t cycle);
 
  private:
   enum class State { kUp, kPowerDown, kSelfRefresh };
+  // Cycles without a request before either state; kNever: not entered.
+  struct IdleTimes {
+    explicit IdleTimes(const DramConfig& config);
+    std::uint64_t power_down, self_refresh;
+  };
 
   Candidate refresh(const DeviceTiming& device, std::uint64_t from) const;
   Candidate refresh_of_set(const DeviceTiming& device, std::uint64_t from) const;
   Candidate sleep(const DeviceTiming& device) const;
+  std::uint64_t power_down_from() const;
+  std::uint64_t self_refresh_from() const;
   std::uint64_t sets_of(std::uint64_t banks) const;
   void choose_set();
   void set_urgency(std::uint64_t cycle);
@@ -69,8 +80,7 @@ class RankMaintenance {
   const bool names_bank_;
   const std::uint64_t interval_;
   const std::uint64_t postpone_;  // cycles
-  const std::uint64_t power_down_idle_;
-  const std::uint64_t self_refresh_idle_;
+  const IdleTimes within_frame_, between_frames_;
 
   State state_ = State::kUp;
   std::uint64_t refresh_due_ = kNever;
@@ -83,6 +93,8 @@ class RankMaintenance {
   std::uint64_t refresh_set_limit_ = kNever;
   std::uint64_t other_banks_limit_ = kNever;
   std::uint64_t idle_since_ = 0;
+  bool rests_ = false;
+  std::uint64_t rests_since_ = 0;
 };
 
 }  // namespace sgs

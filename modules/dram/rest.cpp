@@ -9,16 +9,6 @@
 namespace sgs {
 namespace {
 
-// As within a frame, with the idle times that between_frames stands for.
-DramConfig between_frames(DramConfig config) {
-  constexpr std::uint32_t kAtOnce = 1;
-  if (config.between_frames == BetweenFrames::kByIdleCycles) return config;
-  const bool power_down = config.between_frames == BetweenFrames::kPowerDown;
-  config.power_down_idle_cycles = power_down ? kAtOnce : 0;
-  config.self_refresh_idle_cycles = power_down ? 0 : kAtOnce;
-  return config;
-}
-
 struct Meter : CommandSink {
   Meter(const Memspec& memspec, const DramConfig& config) : activity(memspec, config) {}
   void on_command(const CommandRecord& record) override { activity.on_command(record); }
@@ -110,7 +100,7 @@ double Rest::power_down() const {
 }
 
 Rest rest_of(const DramConfig& config, const Memspec& memspec, std::uint64_t cycles) {
-  const DramConfig resting = between_frames(config);
+  const DramConfig resting = config.at_rest();
   Meter meter(memspec, resting);
   for (std::uint32_t bus = 0; bus < resting.buses(memspec); ++bus) {
     RestingChannel channel(resting, memspec, static_cast<std::uint8_t>(bus), meter);
