@@ -42,7 +42,7 @@ ExactVsu::ExactVsu(const sc_core::sc_module_name& name, const ExactVsuConfig& co
 }
 
 void ExactVsu::run_walk() {
-  for (std::uint32_t group = 0; group < numbers_stand_.size(); ++group) make_numbers(group, 0);
+  make_numbers(0);
   load_upper_nodes();
   while (group_ < job_.groups.size()) {
     take_up_group(walk_, memory, group_);
@@ -70,10 +70,14 @@ bool ExactVsu::step() {
   return begin_group() || read_node() || give_chunk() || enter_children() || test_node();
 }
 
-// from: the cycle from which on the registers of its numbers are free.
-void ExactVsu::make_numbers(std::uint32_t group, std::uint64_t from) {
-  if (group >= job_.groups.size()) return;
-  numbers_stand_[group % numbers_stand_.size()] = numbers_in_turn_.stand(from);
+// For `first` and the group behind it, as soon as their poses are known and registers are free.
+void ExactVsu::make_numbers(std::uint32_t first) {
+  const std::size_t end = std::min(first + registers_free_.size(), job_.groups.size());
+  for (; made_groups_ < end && pose_known(host, job_.frame_of(made_groups_)); ++made_groups_) {
+    const std::size_t at = made_groups_ % registers_free_.size();
+    const std::uint64_t from = std::max(registers_free_[at], walk_.clock().now_cycles());
+    numbers_stand_[at] = numbers_in_turn_.stand(from);
+  }
 }
 
 // Once its numbers stand.
@@ -84,6 +88,7 @@ bool ExactVsu::may_begin_group() const {
 
 bool ExactVsu::begin_group() {
   if (!may_begin_group() || waits_for_pose()) return false;
+  make_numbers(group_);
   if (walk_.clock().now_cycles() < numbers_stand_[next_group_ % numbers_stand_.size()]) {
     return false;
   }
@@ -196,7 +201,8 @@ void ExactVsu::end_group(bool saturated) {
   held_.reset();
   any_chunk_ = false;
   chunk_walk_.end();
-  make_numbers(group_ + ChunkWalk<WalkAside>::kWalks, walk_.clock().now_cycles() + 1);
+  registers_free_[group_ % registers_free_.size()] = walk_.clock().now_cycles() + 1;
+  make_numbers(group_ + 1);
   ready_.push({group_, 0, 0, 0, Mark::kEndOfGroup, kInfinity}, walk_);
   --room_;
   ++group_;
@@ -225,6 +231,8 @@ void ExactVsu::say_what_is_missing() {
   const bool could_read = chunk_walk_.has_node() && !nodes_.full();
   if (room_ == 0) {
     walk_.waits_for(WaitFor::kRoom, ready_);
+  } else if (chunk_walk_.begun() == 0 && waits_for_pose()) {
+    walk_.waits_for(WaitFor::kInput, host);
   } else if (chunk_walk_.begun() == 0) {
     walk_.waits_for(WaitFor::kInput, numbers_);
   } else if (could_read && !chunk_walk_.chunks_have_room()) {
@@ -235,8 +243,6 @@ void ExactVsu::say_what_is_missing() {
     walk_.waits_for(WaitFor::kRoom, tester_.slots());
   } else if (nodes_.used() > 0) {
     walk_.waits_for(WaitFor::kReads, memory);
-  } else if (chunk_walk_.begun() == 0) {
-    walk_.waits_for(WaitFor::kInput, host);
   } else {
     walk_.waits_for(WaitFor::kInput, tester_.pipeline());
   }

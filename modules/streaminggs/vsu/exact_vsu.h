@@ -93,7 +93,7 @@ class ExactVsu : public sc_core::sc_module {
   bool test_node();
   void drop(std::size_t nodes) { counters_.nodes_dropped += nodes; }
   void give(const WalkEntry& chunk, float release_below);
-  void make_numbers(std::uint32_t group, std::uint64_t from);
+  void make_numbers(std::uint32_t first);
   void end_group(bool saturated);
   void mark_saturated(std::uint32_t group);
   void say_what_is_missing();
@@ -110,9 +110,11 @@ class ExactVsu : public sc_core::sc_module {
   const WalkPlace node_room_{"node_queue"}, chunk_room_{"chunk_queue"};
   const WalkPlace numbers_{"group_numbers"};
   GroupNumbersInTurn numbers_in_turn_;
-  // [group modulo the walks under way] from this cycle on its numbers stand
-  std::array<std::uint64_t, ChunkWalk<WalkAside>::kWalks> numbers_stand_{};
-  WalkAside aside_;  // entries that the queues have no room for
+  // [group modulo the walks under way] from this cycle on its numbers stand; it may be given the
+  // registers of the group two before
+  std::array<std::uint64_t, ChunkWalk<WalkAside>::kWalks> numbers_stand_{}, registers_free_{};
+  std::uint32_t made_groups_ = 0;  // that numbers were made for
+  WalkAside aside_;                // entries that the queues have no room for
   ChunkWalk<WalkAside> chunk_walk_;
   TimedFifo<VisitShare> ready_;         // final visits
   TimedFifo<std::uint32_t> taken_;      // places of ready_ that hand_out has given back

@@ -61,7 +61,9 @@ void PaperVsu::run_traverse() {
   std::uint64_t has_registers = 0;  // from this cycle on
   for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
     current_group_ = group;
-    if (job_.begins_frame(group)) take_up_frame(job_.frame_of(group));
+    if (job_.begins_frame(group) && take_up_frame(job_.frame_of(group))) {
+      has_registers = clock.now_cycles();
+    }
     take_up_group(traverse_, node_memory, group);
     const std::uint64_t now = clock.now_cycles();
     traverse_.work(std::max(now, numbers_in_turn_.stand(has_registers)) - now);
@@ -80,9 +82,12 @@ void PaperVsu::run_traverse() {
   traverse_.idles();
 }
 
-void PaperVsu::take_up_frame(std::uint32_t frame) {
+// True if its pose had to be awaited.
+bool PaperVsu::take_up_frame(std::uint32_t frame) {
+  const bool known = pose_known(host, frame);
   await_pose(host, frame, traverse_);
   if (samples_) samples_->take_up_view(job_.picture(frame).view);
+  return !known;
 }
 
 GroupVisits PaperVsu::order_group(std::uint32_t group) {

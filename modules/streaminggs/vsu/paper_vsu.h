@@ -72,7 +72,7 @@ class PaperVsu : public sc_core::sc_module {
   void run_arrivals();  // thread: waits for the tree's nodes, where rays follow it
   void run_emit();      // thread: ordered voxels to visits
   ListsOut lists();
-  void take_up_frame(std::uint32_t frame);
+  bool take_up_frame(std::uint32_t frame);
   GroupVisits order_group(std::uint32_t group);
   void hand_over(const std::vector<std::uint32_t>& voxels, bool last);
   void visit_voxel(std::uint32_t group, std::uint32_t voxel);
