@@ -13,8 +13,9 @@ namespace {
 constexpr const char *kEnds = "ends of lists", *kLines = "lines of lists",
                      *kTags = "tiles of lines", *kWaitingRecords = "records to write",
                      *kListWrites = "list writes", *kTestPasses = "passes to test",
-                     *kListed = "listed tiles", *kTestedRecords = "records under test",
-                     *kTestedKeys = "keys under test", *kTestedBoxes = "boxes under test";
+                     *kListed = "listed tiles", *kProjectedPasses = "projected passes",
+                     *kTestedRecords = "records under test", *kTestedKeys = "keys under test",
+                     *kTestedBoxes = "boxes under test";
 // Bytes of a box: its parts along the screen, place and axes along the ellipse, and its limits
 // there.
 constexpr std::uint32_t kTestedBoxBytes = 4 * 2 + 4 * 4 + 4 * 4;
@@ -308,6 +309,9 @@ SramUses TileLister::sram_uses(const GscoreConfig& c) {
       outstanding_table(kBuffer, c.memory_port),
       unanswered_writes(kListWrites, kBuffer, c.memory_port, c.memory_port.max_transaction_bytes)};
   uses.front().count = c.lists.sets;
+  if (c.lists.sets > 1) {
+    uses.push_back(fifo_use<ProjectedPass>(kProjectedPasses, kBuffer, 1, "passes"));
+  }
   if (has_parts(c)) {
     uses.push_back(sram_use(kTestedBoxes, kBuffer, {{tested, "Gaussians"}, {kTestedBoxBytes, "B"}},
                             {8 * kTestedBoxBytes}, kOneOfEach));
@@ -349,6 +353,7 @@ void TileLister::publish(DataSheet& sheet) {
   if (part_path_) sheet.datapath(*part_path_, counters_.part_tests);
   sheet.queue(test_passes_, kTestPasses);
   sheet.queue(listed_, kListed);
+  if (overlaps()) sheet.queue(projected_, kProjectedPasses);
   sheet.port(memory, kListWrites);
   sheet.remedy(test_, "lists.tiles_at_once");
   sheet.remedy(listed_, WaitFor::kRoom, "lists.tested_entries");
