@@ -10,10 +10,14 @@
 
 namespace sgs {
 
+// Frames that a machine has under way: poses that it keeps, and buffers that it draws into in turn.
+constexpr std::uint32_t kFramesAtOnce = 2;
+
 // What units see depends on the time alone, not on which of them the kernel runs first: both
 // answers change at least a cycle after what they follow from.
 class FrameHostIf : public virtual sc_core::sc_interface {
  public:
+  // It is there, and so are registers for it: it takes those of the frame drawn two before.
   virtual bool pose_known(std::uint32_t frame) const = 0;
   // Nothing that is shown lies in the frame's buffer any more.
   virtual bool buffer_free(std::uint32_t frame) const = 0;

@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "algorithm/splat/view.h"
+
 namespace sgs {
 namespace {
 
@@ -26,18 +28,34 @@ std::string requester_name(const MemoryPort& port, const Machine& machine) {
 
 }  // namespace
 
-void Machine::connect_memory() {
+void Machine::connect_memory(std::uint32_t frames) {
   Ports ports;
   publish(ports);
-  const std::size_t count = ports.found.size();
+  const std::size_t units = ports.found.size(), count = units + (frames > 1 ? 1 : 0);
   memory.init(count);
   router_ = std::make_unique<Router>("router", instant_end_, static_cast<std::uint32_t>(count));
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < units; ++i) {
     ports.found[i]->socket.bind(router_->from_initiators[i]);
     requesters_.push_back(requester_name(*ports.found[i], *this));
   }
+  if (count > units) requesters_.emplace_back("display");
   // The memory says which addresses it has.
   router_->map(0, std::numeric_limits<std::uint64_t>::max(), memory);
+}
+
+void Machine::bind_display(MemoryPort& port) {
+  port.socket.bind(router_->from_initiators[router_->from_initiators.size() - 1]);
+}
+
+void Machine::publish_poses(DataSheet& sheet, std::uint32_t frames) const {
+  if (frames == 1) return;
+  constexpr const char* kPoses = "poses";
+  constexpr std::size_t kSizeBytes = sizeof(View<float>::width) + sizeof(View<float>::height);
+  constexpr double kBits = 8 * (sizeof(View<float>) - kSizeBytes);  // all frames have one size
+  sheet.part(kPoses, "register_bit", kFramesAtOnce * kBits, 1);
+  sheet.operations(kPoses, "register_bit", drawn_ * kBits);
+  sheet.part(kPoses, "select_bit", kBits, 1);
+  sheet.operations(kPoses, "select_bit", drawn_ * kBits);
 }
 
 }  // namespace sgs

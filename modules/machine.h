@@ -29,6 +29,10 @@ class Machine : public sc_core::sc_module {
   // Where frames of a stream come from; unbound for a single frame.
   FrameHostPort host{"host"};
 
+  // Where it has several frames, for the port of the display, which reads them: a way to the memory
+  // that is arbitrated as those of its units are. Bound once, during elaboration.
+  void bind_display(MemoryPort& port);
+
   // Who asks at each of the sockets: the unit's path below the machine.
   const std::vector<std::string>& requesters() const { return requesters_; }
 
@@ -45,12 +49,18 @@ class Machine : public sc_core::sc_module {
 
   void finish_frame(std::uint32_t frame, bool last) {
     done_ = last;
+    ++drawn_;
     if (host.size() > 0) host->drawn(frame);
   }
 
   // Binds the memory port of every unit that publish() shows to a socket of the machine, in that
-  // order. The last thing that the constructor of a machine does.
-  void connect_memory();
+  // order, and gives the display one where there are several frames. The last thing that the
+  // constructor of a machine does.
+  void connect_memory(std::uint32_t frames);
+
+  // The registers that a machine of several frames keeps poses in, where the host writes the next
+  // one meanwhile. Units whose lanes take a pose as constants have registers of their own.
+  void publish_poses(DataSheet& sheet, std::uint32_t frames) const;
 
   // Arbiter of units that share something: decides who gets it.
   InstantEnd& instant_end() { return instant_end_; }
@@ -60,6 +70,7 @@ class Machine : public sc_core::sc_module {
   std::unique_ptr<Router> router_;
   std::vector<std::string> requesters_;
   bool done_ = false;
+  std::uint32_t drawn_ = 0;  // frames
 };
 
 }  // namespace sgs

@@ -34,4 +34,9 @@ void run_simulation() {
   declare_main_stack();
 }
 
+void run_simulation_until(const sc_core::sc_time& time) {
+  sc_core::sc_start(time - sc_core::sc_time_stamp());
+  declare_main_stack();
+}
+
 }  // namespace sgs

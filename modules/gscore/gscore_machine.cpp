@@ -69,7 +69,7 @@ GscoreMachine::GscoreMachine(const sc_core::sc_module_name& name, const GscoreCo
   add_all_fifos(options);
   make_units();
   bind();
-  connect_memory();
+  connect_memory(job_.frames());
 }
 
 void GscoreMachine::add_all_fifos(const BuildOptions& options) {
@@ -147,6 +147,7 @@ void GscoreMachine::publish(DataSheet& sheet) {
     renderers_[c]->publish(sheet);
   }
   sheet.unit(*this);
+  publish_poses(sheet, job_.frames());
   sheet.sram(queue_uses(config_));
   publish_queues(sheet, passes_, kPasses, "ccus");
   publish_queues(sheet, visible_, kVisible, "ccu.input_slots");

@@ -36,7 +36,7 @@ ExactMachine::ExactMachine(const sc_core::sc_module_name& name, const ExactConfi
   add_fifos(config);
   make_sorters(config);
   bind(config.merge.on_overflow);
-  connect_memory();
+  connect_memory(job.frames());
 }
 
 void ExactMachine::add_fifos(const ExactConfig& config) {

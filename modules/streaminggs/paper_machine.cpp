@@ -17,7 +17,7 @@ PaperMachine::PaperMachine(const sc_core::sc_module_name& name, const PaperConfi
   add_fifos(config);
   make_sorters(config);
   bind(config.lists_of_part());
-  connect_memory();
+  connect_memory(job.frames());
 }
 
 void PaperMachine::add_fifos(const PaperConfig& config) {

@@ -148,6 +148,8 @@ def read_run(folder: pathlib.Path, name: str) -> Run | None:
             return None
         check(file, report, VIEW)
         return Run(name, (view_files(report, folder),))
+    if "stream" in report:
+        raise ValueError(f"{file}: stream: got frames back to back, expected frames alone")
     if "path" in report:
         check(file, report, FRAMES)
         return path_run(report, folder, name)

@@ -103,7 +103,7 @@ Band clock_pj(const FrameResult& frame, const Technology& technology) {
   const Clocked of = clocked(frame.machine, technology);
   if (of.bits == 0) return {};
   const Band& bit = technology.part(kRegisterClock).pj;
-  const double bit_cycles = of.bits * static_cast<double>(frame.cycles);
+  const double bit_cycles = of.bits * static_cast<double>(frame.cycles - frame.rest_cycles);
   const double ungated = bit_cycles * bit.middle;
   const Band gated = of.gated * bit + bit_cycles / kGatedBits * technology.part(kClockGate).pj;
   return {gated.low, gated.middle, std::max(gated.high, ungated)};
@@ -143,6 +143,15 @@ void add_leakage(CostResult& energy, const MachineResult& machine, double second
   add(energy, "sram_leakage", kMw * seconds * sram_leakage_mw(machine, technology));
 }
 
+// Power of PHY and controller that stand for a share of the time.
+Band interface_w(const FrameResult& frame, double stands, const Technology& technology) {
+  const MemoryInterfaceCost& interface = technology.memory_interface;
+  const Band channel_mw =
+      (1 - stands) * interface.mw + stands * (interface.mm2 * technology.die.logic_leakage_mw_mm2);
+  return kMw * (priced_channels(frame, technology) * channel_mw +
+                technology.sram.leakage_mw(write_queues(frame, technology)));
+}
+
 // Each burst of a write is put in and taken out.
 Band write_queue_energy_j(const FrameResult& frame, const SramUse& queue, const SramModel& model) {
   std::uint64_t bytes = 0;
@@ -152,10 +161,9 @@ Band write_queue_energy_j(const FrameResult& frame, const SramUse& queue, const 
 }
 
 Band memory_interface_j(const FrameResult& frame, const Technology& technology) {
-  const SramUse queues = write_queues(frame, technology);
-  const Band mw = priced_channels(frame, technology) * technology.memory_interface.mw +
-                  technology.sram.leakage_mw(queues);
-  return kMw * frame.time_s() * mw + write_queue_energy_j(frame, queues, technology.sram);
+  const double stands = frame.memory.time_in_s(kSelfRefreshState) / frame.time_s();
+  return frame.time_s() * interface_w(frame, stands, technology) +
+         write_queue_energy_j(frame, write_queues(frame, technology), technology.sram);
 }
 
 // Of machine and memory.
@@ -225,14 +233,19 @@ Totals energy_totals(const FrameResult& frame, const Technology& technology) {
   return totals_of(frame_energy(frame, technology), memory_interface_j(frame, technology));
 }
 
+CostResult energy_between(const FrameResult& from, const FrameResult& until,
+                          const Technology& technology) {
+  CostResult energy = energy_of(until, technology);
+  for (const auto& [component, joules] : energy_of(from, technology).by_component) {
+    add(energy, component, -1 * joules);
+  }
+  return energy;
+}
+
 Band resting_interface_w(const FrameResult& frame, const Rest& rest, const Technology& technology) {
-  const MemoryInterfaceCost& interface = technology.memory_interface;
-  const double stands = rest.self_refresh();
-  Band channel_mw =
-      (1 - stands) * interface.mw + stands * (interface.mm2 * technology.die.logic_leakage_mw_mm2);
-  channel_mw.high = std::max(channel_mw.high, interface.mw.high);
-  return kMw * (priced_channels(frame, technology) * channel_mw +
-                technology.sram.leakage_mw(write_queues(frame, technology)));
+  Band w = interface_w(frame, rest.self_refresh(), technology);
+  w.high = std::max(w.high, interface_w(frame, 0, technology).high);
+  return w;
 }
 
 CostResult rest_energy_of(const FrameResult& frame, const Rest& rest, double seconds,

@@ -44,10 +44,15 @@ Totals area_totals(const FrameResult& frame, const Technology& technology);
 CostResult area_by_owner(const FrameResult& frame, const Technology& technology);
 
 // Joules of the operations, by component; of the accesses, by use of on-chip memory; of the clock
-// (`clock`); of leakage over the frame (`logic_leakage`, `sram_leakage`); and the memory's
+// (`clock`), which stands while no frame is under way; of leakage over the frame (`logic_leakage`,
+// `sram_leakage`); and the memory's
 // (`dram`), none where that is not known. Throws InputError as above.
 CostResult energy_of(const FrameResult& frame, const Technology& technology);
 Totals energy_totals(const FrameResult& frame, const Technology& technology);
+
+// Joules of what was done between two moments of one simulation.
+CostResult energy_between(const FrameResult& from, const FrameResult& until,
+                          const Technology& technology);
 
 // Power of PHY and controller between frames, whether the table counts them or not: while the
 // memory refreshes itself their clocks stand and they leak as logic does; else as in a frame. High:

@@ -25,6 +25,7 @@ class Collector : public LeftOutCollector {
 
   void unit(const sc_core::sc_object& unit) override {
     into_.units.push_back({path_below(unit, machine_), {}, {}});
+    table_ = kOutstandingTable;
     const std::string owner =
         &unit == &machine_ ? kBetweenUnits : owner_of(into_.units.back().name);
     const auto same = std::find_if(into_.owners.begin(), into_.owners.end(),
@@ -106,6 +107,7 @@ class Collector : public LeftOutCollector {
     if (count > 0) into_.units.back().charged = true;
   }
   void sram(const SramUse& use) override {
+    if (use.name.rfind(kOutstandingTable, 0) == 0) table_ = use.name;
     sgs::add(into_.sram_uses, use);
     sgs::add(into_.owners[owner_].sram_uses, use);
   }
@@ -127,7 +129,7 @@ class Collector : public LeftOutCollector {
     }
   }
   void port(MemoryPort& port, const char* writes) override {
-    accesses(kOutstandingTable, port.transactions(), port.transactions());
+    accesses(table_.c_str(), port.transactions(), port.transactions());
     by_part(kBytesOfParts, "bytes", "asked for, read and written", port.bytes_of_parts());
     if (*writes != '\0') accesses(writes, port.words_written(), port.words_written());
   }
@@ -195,6 +197,7 @@ class Collector : public LeftOutCollector {
   const Machine& machine_;
   MachineResult& into_;
   std::size_t owner_ = 0;         // index of the publishing unit's owner
+  std::string table_;             // of its ports' transactions: all of a machine have one name
   std::set<std::string> movers_;  // units at an end of a FIFO that entries went through
   std::map<std::string, Remedy> for_work_;
   std::map<std::pair<std::string, WaitFor>, Remedy> for_waits_;
@@ -228,9 +231,13 @@ void LeftOutCollector::left_out(const char* what, const char* why, std::uint64_t
 }
 
 MachineResult collect(Machine& machine) {
+  return collect(machine, [&](DataSheet& sheet) { machine.publish(sheet); });
+}
+
+MachineResult collect(const Machine& machine, const Publisher& all) {
   MachineResult result;
   Collector collector(machine, result);
-  machine.publish(collector);
+  all(collector);
   collector.join_ends();
   std::uint64_t idle = 0;
   for (const UnitResult& unit : result.units) {
@@ -252,16 +259,16 @@ MachineResult collect(Machine& machine) {
   return result;
 }
 
-bool drained(Machine& machine) {
+bool drained(const Publisher& all) {
   Drained sheet;
-  machine.publish(sheet);
+  all(sheet);
   return sheet.all;
 }
 
 std::string path_below(const sc_core::sc_object& object, const Machine& machine) {
-  const std::size_t skip = std::strlen(machine.name());
+  const std::string above = std::string(machine.name()) + ".";
   const std::string name = object.name();
-  return name.size() > skip ? name.substr(skip + 1) : name;
+  return name.compare(0, above.size(), above) == 0 ? name.substr(above.size()) : name;
 }
 
 }  // namespace sgs

@@ -1,14 +1,21 @@
 // From data sheets to values.
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "modules/machine.h"
 #include "testbench/result/frame_result.h"
 
 namespace sgs {
 
-// Collects the values that a machine's data sheets have now. Open intervals of its activities are
-// closed.
+// Whoever publishes a machine's data sheets, and those of what stands beside it.
+using Publisher = std::function<void(DataSheet&)>;
+
+// Collects the values that the data sheets have now: the machine's, or those of `all`. Open
+// intervals of activities are closed.
 MachineResult collect(Machine& machine);
+MachineResult collect(const Machine& machine, const Publisher& all);
 
 // Its savings alone, of whoever publishes them.
 class LeftOutCollector : public DataSheet {
@@ -23,9 +30,10 @@ class LeftOutCollector : public DataSheet {
 };
 
 // FIFOs are empty and memory ports idle.
-bool drained(Machine& machine);
+bool drained(const Publisher& all);
 
-// "machine.hfu0.coarse" below "machine": "hfu0.coarse"; the machine itself: "machine".
+// "machine.hfu0.coarse" below "machine": "hfu0.coarse"; the machine itself, and what does not lie
+// below it, by its name.
 std::string path_below(const sc_core::sc_object& object, const Machine& machine);
 
 }  // namespace sgs

@@ -33,12 +33,41 @@ RegionTraffic& entry(std::vector<RegionTraffic>& traffic, const std::string& reg
   return traffic.back();
 }
 
+void add_states(const DramStats& stats, MemoryResult& m) {
+  constexpr double kPj = 1e-12, kNs = 1e-9;
+  EnergyParts e = stats.energy.vdd1;
+  e += stats.energy.vdd2;
+  RankActivity all;
+  for (const RankActivity& rank : stats.ranks) {
+    all.active_cycles += rank.active_cycles;
+    all.precharged_cycles += rank.precharged_cycles;
+    all.active_power_down_cycles += rank.active_power_down_cycles;
+    all.precharged_power_down_cycles += rank.precharged_power_down_cycles;
+    all.self_refresh_cycles += rank.self_refresh_cycles;
+  }
+  const auto seconds = [&](std::uint64_t cycles) {
+    return kNs * stats.clock_period_ns * static_cast<double>(cycles) /
+           static_cast<double>(stats.ranks.size());
+  };
+  m.states = {
+      {"active", seconds(all.active_cycles), kPj * e.active_standby_pj},
+      {"precharged", seconds(all.precharged_cycles), kPj * e.precharged_standby_pj},
+      {"power_down", seconds(all.active_power_down_cycles + all.precharged_power_down_cycles),
+       kPj * e.power_down_pj},
+      {kSelfRefreshState, seconds(all.self_refresh_cycles), kPj * e.self_refresh_pj}};
+  m.commands = {{"activate", kPj * e.activate_pj},
+                {"read", kPj * e.read_pj},
+                {"write", kPj * e.write_pj},
+                {"refresh", kPj * e.refresh_pj},
+                {"io", kPj * e.io_pj}};
+}
+
 }  // namespace
 
-void add_memory_path(Machine& machine, std::uint32_t channels, MachineResult& result) {
+void add_memory_path(const Publisher& all, std::uint32_t channels, MachineResult& result) {
   constexpr const char* kComponent = "memory_path";
   Paths paths;
-  machine.publish(paths);
+  all(paths);
   if (paths.wide == 0) return;
   OwnerResult owner{kComponent, {}, {}};
   if (paths.registers > 0) {
@@ -82,6 +111,7 @@ MemoryResult collect_memory(const DramStats& stats, const Regions& regions,
   m.energy_least_j = stats.energy.least_pj * kPj;
   m.energy_most_j = stats.energy.most_pj * kPj;
   m.energy_not_stated = stats.energy.not_stated;
+  add_states(stats, m);
   m.transactions = stats.traffic.total().transactions;
   m.row_hits = all.rows.of(RowOutcome::kHit);
   m.row_misses = all.rows.of(RowOutcome::kMiss);

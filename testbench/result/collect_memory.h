@@ -7,7 +7,7 @@
 
 #include "algorithm/memory/scene_layout.h"
 #include "modules/dram/dram_stats.h"
-#include "modules/machine.h"
+#include "testbench/result/collect.h"
 #include "testbench/result/frame_result.h"
 
 namespace sgs {
@@ -17,7 +17,7 @@ namespace sgs {
 // Adds parts and operations of component "memory_path": for each port and direction the registers
 // of the path, and for each channel a multiplexer, a bit each; what passed them. The parts' owner
 // has the component's name.
-void add_memory_path(Machine& machine, std::uint32_t channels, MachineResult& result);
+void add_memory_path(const Publisher& all, std::uint32_t channels, MachineResult& result);
 
 // requesters: by number.
 MemoryResult collect_memory(const DramStats& stats, const Regions& regions,

@@ -91,24 +91,38 @@ void serialize(Archive& a, RegionTraffic& r) {
   a(r.region, r.requester, r.read_bytes, r.written_bytes);
 }
 template <class Archive>
+void serialize(Archive& a, MemoryState& r) {
+  a(r.name, r.time_s, r.energy_j);
+}
+template <class Archive>
 void serialize(Archive& a, MemoryResult& r) {
   a(r.bytes, r.bus_bytes, r.traffic, r.bus_bytes_by_region, r.transactions, r.row_hits,
     r.row_misses, r.row_conflicts, r.refreshes, r.bandwidth_gb_s, r.busy_bandwidth_gb_s,
     r.peak_gb_s, r.read_latency_mean_ns, r.read_latency_p50_ns, r.read_latency_p99_ns, r.channels,
     r.write_queue_entries, r.bus_utilisation, r.remedy, r.energy_j, r.energy_least_j,
-    r.energy_most_j, r.energy_not_stated, r.energy_by_current_set_j, r.energy_by_region_j);
+    r.energy_most_j, r.energy_not_stated, r.energy_by_current_set_j, r.energy_by_region_j, r.states,
+    r.commands);
 }
 template <class Archive>
 void serialize(Archive& a, StreamedFrame& r) {
   a(r.pose_s, r.begun_s, r.drawn_s, r.shown_s, r.bytes);
 }
 template <class Archive>
+void serialize(Archive& a, FrameResult& r);
+template <class Archive>
 void serialize(Archive& a, StreamResult& r) {
-  a(r.frames, r.pictures, r.repeated);
+  a(r.frames, r.pictures, r.repeated, r.rows_late, r.first_and_last_shown);
 }
 template <class Archive>
 void serialize(Archive& a, FrameResult& r) {
-  a(r.cycles, r.clock_mhz, r.drained, r.machine, r.memory, r.frame, r.stream, r.wall_s);
+  a(r.cycles, r.rest_cycles, r.clock_mhz, r.drained, r.machine, r.memory, r.frame, r.stream,
+    r.wall_s);
+}
+
+double MemoryResult::time_in_s(const std::string& state) const {
+  double sum = 0;
+  for (const MemoryState& of : states) sum += of.name == state ? of.time_s : 0;
+  return sum;
 }
 
 std::string to_wire(const FrameResult& result) {

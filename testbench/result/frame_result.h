@@ -110,6 +110,13 @@ struct RegionTraffic {
   std::uint64_t read_bytes = 0, written_bytes = 0;
 };
 
+// A state of the memory's ranks: the mean time that they spend in it, and what it draws.
+struct MemoryState {
+  std::string name;
+  double time_s = 0, energy_j = 0;
+};
+constexpr const char* kSelfRefreshState = "self_refresh";
+
 struct MemoryResult {
   std::uint64_t bytes = 0, bus_bytes = 0;  // asked for; moved, in whole bursts
   std::vector<RegionTraffic> traffic;      // regions with traffic
@@ -124,6 +131,11 @@ struct MemoryResult {
   double energy_j = 0, energy_least_j = 0, energy_most_j = 0;
   std::string energy_not_stated;  // what its memspec lacks for that; empty: it is known
   std::vector<std::pair<std::string, double>> energy_by_current_set_j, energy_by_region_j;
+  // Add up to the energy.
+  std::vector<MemoryState> states;
+  std::vector<std::pair<std::string, double>> commands;  // above their states
+
+  double time_in_s(const std::string& state) const;
 };
 
 // A frame of a stream. Seconds since the start.
@@ -134,14 +146,20 @@ struct StreamedFrame {
   double shown_s = 0;            // its first row was read for the display
   std::vector<std::byte> bytes;  // as they were shown
 };
+struct FrameResult;
 struct StreamResult {
   std::vector<StreamedFrame> frames;
-  std::uint64_t pictures = 0;  // shown, from the first frame's to the last one's
-  std::uint64_t repeated = 0;  // of these, for want of the next frame
+  std::uint64_t pictures = 0;   // shown, from the first frame's to the last one's
+  std::uint64_t repeated = 0;   // of these, for want of the next frame
+  std::uint64_t rows_late = 0;  // not there when the display was to show them
+  // Counts up to the moment when the first frame and the last one are shown: between them the
+  // stream flows. None without a display.
+  std::vector<FrameResult> first_and_last_shown;
 };
 
 struct FrameResult {
   std::uint64_t cycles = 0;
+  std::uint64_t rest_cycles = 0;  // of these, in which no frame was under way: the clock stands
   double clock_mhz = 0;
   bool drained = false;  // FIFOs empty, nothing in flight
   MachineResult machine;

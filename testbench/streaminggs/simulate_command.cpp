@@ -99,13 +99,16 @@ void check_groups(const std::string& text, const GroupRange& range, const Machin
                                text, count, count - 1));
 }
 
-// One file each of a single frame.
+// One file each of one simulation.
 void check_single(const SimulateArguments& arguments) {
   const RunOptions& run = arguments.run;
   if (run.vcd_path.empty() && run.timeline_path.empty() && run.dram_trace_path.empty()) return;
+  if (arguments.stream) return;
   if (!arguments.path.empty()) {
     throw InputError(
-        "--vcd, --timeline, --dram-trace: one file holds one frame; expected them without --path");
+        "--vcd, --timeline, --dram-trace: one file holds one simulation; expected them without "
+        "--path, "
+        "or with --stream");
   }
   if (arguments.view.find_first_not_of("0123456789") == std::string::npos) return;
   throw InputError(
@@ -121,6 +124,29 @@ void check_cameras_of_path(const SimulateArguments& arguments, SecondHalfEncodin
       "--cameras: got {} with --path {}, which says what is drawn, expected one of the two, or "
       "codebooks to be made, which these cameras weigh",
       arguments.cameras_path, arguments.path));
+}
+
+// Refuses a rate that stands for no display.
+void check_rates(const SimulateArguments& arguments) {
+  constexpr double kLeastRate = 1e-3;
+  for (const double rate : arguments.run.frame_rates) {
+    if (rate >= kLeastRate || (rate == 0 && arguments.stream)) continue;
+    throw InputError(fmt::format("--frame-rate: got {}, expected {} or more, or 0 with --stream",
+                                 rate, kLeastRate));
+  }
+}
+
+// Refuses a stream of one frame, or one that lasts longer than the kernel can count.
+void check_stream(const PathJob& job) {
+  constexpr double kMostSeconds = 10000;
+  if (job.frames.size() < 2) {
+    throw InputError("--frames: got 1, expected 2 or more with --stream");
+  }
+  const double seconds = static_cast<double>(job.frames.size()) / job.frame_rate;
+  if (job.frame_rate == 0 || seconds < kMostSeconds) return;
+  throw InputError(
+      fmt::format("--frame-rate: got {}: {} frames take {:g} s, expected less than {:g} s",
+                  job.frame_rate, job.frames.size(), seconds, kMostSeconds));
 }
 
 // keys: the path's, in their own size.
@@ -140,8 +166,11 @@ PathJob path_job(const SimulateArguments& arguments, std::vector<Camera>& keys) 
         fmt::format("--frame-rate: got {} rates, expected one with --path", rates.size()));
   }
   constexpr double kUsualRate = 90;
-  const double stated = path.facts.frame_rate.value_or(kUsualRate);
-  return {path.name, frames_along(path, arguments.frames), rates.empty() ? stated : rates.front()};
+  const double usual = arguments.stream ? 0 : path.facts.frame_rate.value_or(kUsualRate);
+  PathJob job{path.name, frames_along(path, arguments.frames),
+              rates.empty() ? usual : rates.front()};
+  if (arguments.stream) check_stream(job);
+  return job;
 }
 
 // Prints the machine, the precision if it has one for blending, how the scene is stored, and which
@@ -167,6 +196,7 @@ void print_notes_of_memory(const std::string& memspec, Detail detail) {
 }
 
 int run(const SimulateArguments& arguments, const Kinds& kinds) {
+  check_rates(arguments);
   RunSetting setting;
   setting.facts.began = std::chrono::steady_clock::now();
   RunConfig& config = setting.config;
@@ -236,8 +266,8 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
     fmt::print(stderr, "streaminggs: note: {}\n", setting.technology.note);
   const std::string doubt = doubt_about_clock(config, setting.technology);
   if (!doubt.empty()) fmt::print(stderr, "streaminggs: note: {}\n", doubt);
-  if (arguments.stream) return run_stream_of(*path, setting, out);
-  const int status = path ? run_path(*path, setting, out, arguments.drop_invalid)
+  const auto run_frames = arguments.stream ? run_stream : run_path;
+  const int status = path ? run_frames(*path, setting, out, arguments.drop_invalid)
                           : run_views(views, setting, out, arguments.drop_invalid);
   print_notes_of_memory(config.dram.memspec, setting.detail);
   return status;
@@ -268,11 +298,13 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
             "drawn");
   line.whole("--frames", arguments->frames, 1U, 100000U,
              "along the path; if not given 60, or those that nerfstudio's states");
-  line.reals("--frame-rate", arguments->run.frame_rates, 1e-3, 1e6,
+  line.reals("--frame-rate", arguments->run.frame_rates, 0, 1e6,
              "frames a second at which joules a second are told, as in 60,90, with the memory's "
              "rest between frames; of a path one, if not given 90, or as nerfstudio's states");
-  line.flag("--stream", arguments->stream,
-            "the path's frames back to back in one simulation, shown at --frame-rate");
+  line.flag(
+      "--stream", arguments->stream,
+      "the path's frames back to back in one simulation, shown at --frame-rate; as fast as it "
+      "goes with 0, or none");
   line.needs("--stream", "--path");
   line.excludes("--view", "--path");
   line.needs("--frames", "--path");

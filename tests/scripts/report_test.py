@@ -126,6 +126,8 @@ class Page(WithFrames):
         summary["worst_frame"] = 2
         report_file.write_text(json.dumps(whole))
         self.assertRefused(folder, "summary.worst_frame: got 2 of 2 frames, expected one of them$")
+        report_file.write_text(json.dumps({**whole, "stream": {}}))
+        self.assertRefused(folder, "stream: got frames back to back, expected frames alone$")
         report_file.write_text(text)
         self.assertEqual(len(streaminggs.load(folder)), 2)
         self.assertHolds(page, "2 frames along the turntable of builtin:object?n=100")

@@ -15,23 +15,9 @@ void visit_left_out(ReportVisitor& r, const std::vector<LeftOut>& left_out) {
   });
 }
 
-}  // namespace
-
-void visit_view(ReportVisitor& r, const ViewResult& view, const PreparedScene& scene) {
+// Units, memory, joules, area and ledger.
+void visit_machine(ReportVisitor& r, const ViewResult& view) {
   const FrameResult& run = view.run;
-  r("schema_version", "", "Version of this layout.", kReportVersion);
-  r.object("scene", [&] { visit_scene(r, scene); });
-  r("view", "", "Number of the camera: its place among the cameras, from 0.", view.view);
-  r.object("camera", [&] { visit_camera(r, view.camera); });
-  r.object("image", [&] { visit_image(r, view, scene.stored.original_known()); });
-  r.object("frame", [&] {
-    r("cycles", "cycles", "Cycles from time 0 until the last pixel is in DRAM.", run.cycles);
-    r("time_s", "s", "These cycles at the configured clock.", run.time_s());
-    r("fps", "1/s", "Frames a second: 1 over the frame time.", 1 / run.time_s());
-    r("width_px", "px", "Width of the picture: the camera's, or `--size`.", view.camera.width);
-    r("height_px", "px", "Height of the picture.", view.camera.height);
-    r("drained", "bool", "No FIFO, port or queue holds anything at the end.", run.drained);
-  });
   r.object("units", [&] {
     r.each(run.machine.units, [&](const UnitResult& unit) {
       r.object({"PATH", unit.name}, [&] { visit_unit(r, unit); });
@@ -53,6 +39,33 @@ void visit_view(ReportVisitor& r, const ViewResult& view, const PreparedScene& s
     });
   });
   r.object("ledger", [&] { visit_ledger(r, run); });
+}
+
+void visit_wall_time(ReportVisitor& r, const FrameResult& run) {
+  r.object("host", [&] {
+    r("simulation_wall_s", "s", "Host time of elaboration, loading and simulation of this view.",
+      run.wall_s);
+  });
+}
+
+}  // namespace
+
+void visit_view(ReportVisitor& r, const ViewResult& view, const PreparedScene& scene) {
+  const FrameResult& run = view.run;
+  r("schema_version", "", "Version of this layout.", kReportVersion);
+  r.object("scene", [&] { visit_scene(r, scene); });
+  r("view", "", "Number of the camera: its place among the cameras, from 0.", view.view);
+  r.object("camera", [&] { visit_camera(r, view.camera); });
+  r.object("image", [&] { visit_image(r, view, scene.stored.original_known()); });
+  r.object("frame", [&] {
+    r("cycles", "cycles", "Cycles from time 0 until the last pixel is in DRAM.", run.cycles);
+    r("time_s", "s", "These cycles at the configured clock.", run.time_s());
+    r("fps", "1/s", "Frames a second: 1 over the frame time.", 1 / run.time_s());
+    r("width_px", "px", "Width of the picture: the camera's, or `--size`.", view.camera.width);
+    r("height_px", "px", "Height of the picture.", view.camera.height);
+    r("drained", "bool", "No FIFO, port or queue holds anything at the end.", run.drained);
+  });
+  visit_machine(r, view);
   r.object("limit", [&] {
     r("contributing_gaussians", "", "Gaussians that are blended into a pixel or more.",
       view.golden.contributing);
@@ -60,10 +73,22 @@ void visit_view(ReportVisitor& r, const ViewResult& view, const PreparedScene& s
     r("ratio", "ratio", "`dram.bytes` over `limit.bytes_read_once`.", view.once_ratio());
   });
   visit_left_out(r, view.left_out);
-  r.object("host", [&] {
-    r("simulation_wall_s", "s", "Host time of elaboration, loading and simulation of this view.",
-      run.wall_s);
+  visit_wall_time(r, run);
+}
+
+void visit_view_of_stream(ReportVisitor& r, const ViewResult& all, const PreparedScene& scene) {
+  const FrameResult& run = all.run;
+  r.object("scene", [&] { visit_scene(r, scene); });
+  r.object("frame", [&] {
+    r("cycles", "cycles", "Cycles of the machine's clock until nothing happens any more.",
+      run.cycles);
+    r("time_s", "s", "These cycles at the configured clock.", run.time_s());
+    r("rest_cycles", "cycles", "Of these, in which no frame is under way.", run.rest_cycles);
+    r("drained", "bool", "No FIFO, port or queue holds anything at the end.", run.drained);
   });
+  visit_machine(r, all);
+  visit_left_out(r, all.left_out);
+  visit_wall_time(r, run);
 }
 
 }  // namespace sgs

@@ -163,6 +163,41 @@ void visit_fixed_rate(ReportVisitor& r, const FixedRate& rate) {
   });
 }
 
+void visit_flow(ReportVisitor& r, const StreamFlow& flow) {
+  r("time_s", "s",
+    "With a display the time from the first frame's picture to the last one's, else that of all.",
+    flow.time_s);
+  r("frames", "", "Frames that are shown in that time.", flow.frames);
+  r("bytes", "B", "As `dram.bytes`, requested in that time.", flow.bytes);
+  r("bus_bytes", "B", "As `dram.bus_bytes`.", flow.bus_bytes);
+  r.object("energy", [&] {
+    visit_costs(
+        r, flow.energy_j, "_j", "J",
+        "Middle energy of a component in that time, as in a frame. The clock stands while no "
+        "frame is under way.",
+        "Middle energy of that time.");
+  });
+  visit_band(r, "power_w", "W", flow.power_w(), "Joules a second");
+  r.object("memory", [&] {
+    r.each(flow.states, [&](const MemoryState& state) {
+      r.object({"STATE", state.name}, [&] {
+        r("time_s", "s",
+          "Time in state `active`, `precharged`, `power_down` or `self_refresh`, mean of the "
+          "ranks.",
+          state.time_s);
+        r("energy_j", "J", "Energy that the state draws.", state.energy_j);
+      });
+    });
+    r.each(flow.commands, [&](const auto& command) {
+      r({"COMMAND_j", command.first + "_j"}, "J",
+        "Energy of `activate`, `read`, `write` and `refresh` above their state's, and of `io`. "
+        "With the "
+        "states' it is `dram_j`.",
+        command.second);
+    });
+  });
+}
+
 void visit_area(ReportVisitor& r, const ViewResult& view) {
   visit_costs(r, view.area_mm2, "", "mm2",
               "Middle area of a component; `sram` is all on-chip memory.",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "testbench/streaminggs/report/report_visitor.h"
+#include "testbench/streaminggs/report/run_report.h"
 #include "testbench/streaminggs/run/view_result.h"
 
 namespace sgs {
@@ -22,6 +23,8 @@ void visit_memory_interface(ReportVisitor& r, const MemoryInterface& interface);
 
 void visit_energy(ReportVisitor& r, const ViewResult& view);
 void visit_fixed_rate(ReportVisitor& r, const FixedRate& rate);
+void visit_stream(ReportVisitor& r, const StreamReport& stream);
+void visit_flow(ReportVisitor& r, const StreamFlow& flow);
 void visit_area(ReportVisitor& r, const ViewResult& view);
 
 }  // namespace sgs

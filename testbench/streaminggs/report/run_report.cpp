@@ -10,6 +10,7 @@
 #include "testbench/command_line/version.h"
 #include "testbench/streaminggs/report/provenance.h"
 #include "testbench/streaminggs/report/report.h"
+#include "testbench/streaminggs/report/report_sections.h"
 #include "testbench/streaminggs/report/report_visitor.h"
 #include "testbench/streaminggs/run/progress.h"
 
@@ -78,9 +79,20 @@ void visit_summary(ReportVisitor& r, const PathSummary& s) {
   r("energy_a_second_high_j", "J", "The same with the highest values.", both.high);
 }
 
+void visit_name(ReportVisitor& r, const std::string& path) {
+  r.object("path",
+           [&] { r("name", "", "File of `--path`, or the way of a built-in scene.", path); });
+}
+
+struct StreamOfAll {
+  StreamReport report;
+  Json all;
+};
+
 // The entries of a report of several views.
 void visit_all(ReportVisitor& r, const Json& config, const Failures& failed,
-               const std::optional<PathReport>& path, const Json& views) {
+               const std::optional<PathReport>& path, const std::optional<StreamOfAll>& stream,
+               const Json& views) {
   r("schema_version", "", "Version of this layout.", kReportVersion);
   r("config", "", kConfigMeaning, config);
   r.list("failed", failed, [&](const auto& failure) {
@@ -88,11 +100,23 @@ void visit_all(ReportVisitor& r, const Json& config, const Failures& failed,
     r("why", "", "Why not.", failure.second);
   });
   r.each(path, [&](const PathReport& of) {
-    r.object("path",
-             [&] { r("name", "", "File of `--path`, or the way of a built-in scene.", of.name); });
+    visit_name(r, of.name);
     r.object("summary", [&] { visit_summary(r, of.summary); });
   });
-  r("views", "", "The reports of the views that were finished, or of the frames of a path.", views);
+  r.each(stream, [&](const StreamOfAll& of) {
+    visit_name(r, of.report.name);
+    r.object("stream", [&] {
+      visit_stream(r, of.report);
+      r("all", "",
+        "All frames together: the entries of a view but `view`, `camera`, `image`, `limit`, and "
+        "what "
+        "is of a single frame.",
+        of.all);
+    });
+  });
+  r("views", "",
+    "The reports of the views that were finished, or of the frames of a path; none of a stream.",
+    views);
 }
 
 }  // namespace
@@ -119,20 +143,36 @@ std::shared_ptr<const Json> RunReport::of_view(const ViewResult& view,
   return report;
 }
 
+Json RunReport::of_all(const ViewResult& all, const PreparedScene& scene) const {
+  Json report;
+  ReportWriter writer(report);
+  visit_view_of_stream(writer, all, scene);
+  visit_run(writer, facts_, content_->config, content_->chosen, all.image_hash);
+  report.erase("config");  // stands beside it
+  return report;
+}
+
 void RunReport::add(const Json& view) { content_->views.push_back(view); }
 
 std::string RunReport::text(const Failures& failed) const {
   Json all;
   ReportWriter writer(all);
-  visit_all(writer, content_->config, failed, {}, content_->views);
+  visit_all(writer, content_->config, failed, {}, {}, content_->views);
   return report_text(all);
 }
 
 std::string RunReport::text(const PathReport& path) const {
   Json all;
   ReportWriter writer(all);
-  visit_all(writer, content_->config, {}, path, content_->views);
+  visit_all(writer, content_->config, {}, path, {}, content_->views);
   return report_text(all);
+}
+
+Json RunReport::of_stream(const StreamReport& stream, const Json& all) const {
+  Json report;
+  ReportWriter writer(report);
+  visit_all(writer, content_->config, {}, {}, StreamOfAll{stream, all}, Json::array());
+  return report;
 }
 
 std::vector<ReportEntry> entries_of_view() {
@@ -144,7 +184,7 @@ std::vector<ReportEntry> entries_of_view() {
 
 std::vector<ReportEntry> entries_of_all_views() {
   ReportTeller teller;
-  visit_all(teller, {}, {}, {}, {});
+  visit_all(teller, {}, {}, {}, {}, {});
   return teller.entries();
 }
 

@@ -12,6 +12,7 @@
 #include "testbench/streaminggs/report/report_entry.h"
 #include "testbench/streaminggs/run/path_summary.h"
 #include "testbench/streaminggs/run/run_config.h"
+#include "testbench/streaminggs/run/stream_summary.h"
 #include "testbench/streaminggs/run/view_result.h"
 
 namespace sgs {
@@ -31,6 +32,21 @@ struct PathReport {
   PathSummary summary;
 };
 
+// A frame of a stream, and how it is judged.
+struct StreamedPicture {
+  FrameTiming timing;
+  double psnr_db = 0, ssim = 0;
+  bool equals_golden = false, empty = false;
+};
+
+// Of a camera path whose frames are drawn back to back.
+struct StreamReport {
+  std::string name;
+  StreamSummary summary;
+  StreamFlow flow;
+  std::vector<StreamedPicture> frames;
+};
+
 class RunReport {
  public:
   // config: resolved.
@@ -39,6 +55,10 @@ class RunReport {
 
   std::shared_ptr<const nlohmann::ordered_json> of_view(const ViewResult& view,
                                                         const PreparedScene& scene) const;
+  // Machine and memory over a whole stream, and the report of that.
+  nlohmann::ordered_json of_all(const ViewResult& all, const PreparedScene& scene) const;
+  nlohmann::ordered_json of_stream(const StreamReport& stream,
+                                   const nlohmann::ordered_json& all) const;
   // One of a view that was finished.
   void add(const nlohmann::ordered_json& view);
 

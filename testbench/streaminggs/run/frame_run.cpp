@@ -42,19 +42,35 @@ struct Outputs {
 class Stream {
  public:
   Stream(const FrameJob& job, double rate, Machine& machine, DramController& memory)
-      : display_("display", job, rate, machine.clock().period()), result_{} {
+      : job_(job), rate_(rate), display_("display", job, rate, machine.clock().period()) {
     result_.frames.resize(job.frames());
     machine.host.bind(display_);
-    display_.memory.socket.bind(memory.socket);
-    display_.on_shown = [this, &job, &memory](std::uint32_t frame, const std::byte* bytes) {
+    machine.bind_display(display_.memory);
+    display_.on_rest = [&memory](bool rests) { memory.rest(rests); };
+    display_.on_shown = [this, &memory](std::uint32_t frame, const std::byte* bytes) {
       std::vector<std::byte>& into = result_.frames[frame].bytes;
-      into.resize(job.frame_buffer.bytes);
+      into.resize(job_.frame_buffer.bytes);
       if (bytes != nullptr) {
         std::memcpy(into.data(), bytes, into.size());
       } else {
-        memory.read_back(job.picture(frame).frame_buffer.base, into.data(), into.size());
+        memory.read_back(job_.picture(frame).frame_buffer.base, into.data(), into.size());
       }
     };
+  }
+
+  void publish(DataSheet& sheet) { display_.publish(sheet); }
+  sc_core::sc_time rested() const { return display_.rested(); }
+
+  // Simulates until the last frame is shown. counts(): those up to now.
+  template <class Counts>
+  void run(const Counts& counts) {
+    if (rate_ == 0) return;
+    std::vector<FrameResult>& at = result_.first_and_last_shown;
+    for (std::uint64_t picture = 1; display_.frames_shown() < job_.frames(); ++picture) {
+      run_simulation_until(display_.due(picture) + sc_core::sc_get_time_resolution());
+      if (display_.frames_shown() > 0 && at.empty()) at.push_back(counts());
+    }
+    at.push_back(counts());
   }
 
   StreamResult result() {
@@ -66,12 +82,15 @@ class Stream {
       of.drawn_s = times.drawn.to_seconds();
       of.shown_s = times.shown.to_seconds();
     }
-    result_.pictures = display_.pictures();
-    result_.repeated = display_.repeated();
+    result_.pictures = display_.counters().pictures;
+    result_.repeated = display_.counters().repeated;
+    result_.rows_late = display_.counters().rows_late;
     return std::move(result_);
   }
 
  private:
+  const FrameJob& job_;
+  const double rate_;
   Display display_;
   StreamResult result_;
 };
@@ -91,12 +110,12 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
   const std::unique_ptr<Machine> machine = design.build("accelerator", job, build);
   check_sram_budget(*machine);
   for (auto& socket : machine->memory) socket.bind(memory.socket);
-  std::vector<std::string> requesters = machine->requesters();
   std::optional<Stream> stream;
-  if (rate) {
-    stream.emplace(job, *rate, *machine, memory);
-    requesters.push_back("display");
-  }
+  if (rate) stream.emplace(job, *rate, *machine, memory);
+  const Publisher sheets = [&](DataSheet& sheet) {
+    machine->publish(sheet);
+    if (stream) stream->publish(sheet);
+  };
   std::optional<CommandTraceWriter> dram_trace;
   if (outputs.dram_trace != nullptr) {
     dram_trace.emplace(*outputs.dram_trace, CommandTraceHeader::of(dram), memory);
@@ -113,21 +132,27 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
     timeline =
         std::make_unique<Timeline>(*outputs.timeline, *machine, memory, outputs.timeline_groups);
   }
+  const auto counts = [&] {
+    FrameResult result;
+    result.cycles = machine->clock().now_cycles();
+    if (stream) result.rest_cycles = stream->rested().value() / machine->clock().period().value();
+    result.clock_mhz = machine->clock().mhz();
+    result.machine = collect(*machine, sheets);
+    add_memory_path(sheets, dram.buses(memory.memspec()), result.machine);
+    result.memory = collect_memory(memory.stats(), job.layout.regions, machine->requesters());
+    result.memory.write_queue_entries = dram.write_queue_entries;
+    return result;
+  };
+  if (stream) stream->run(counts);
   // Until nothing can happen any more: the frame ends when its last posted write is in the memory.
   run_simulation();
   if (dram_trace) dram_trace->close();
   if (!machine->done()) {
     throw std::runtime_error("the simulation ran out of events before the frame was finished");
   }
-  FrameResult result;
-  result.cycles = machine->clock().now_cycles();
-  result.clock_mhz = machine->clock().mhz();
-  result.drained = drained(*machine) && memory.idle();
-  result.machine = collect(*machine);
+  FrameResult result = counts();
+  result.drained = drained(sheets) && memory.idle();
   if (timeline) timeline->close();
-  add_memory_path(*machine, dram.buses(memory.memspec()), result.machine);
-  result.memory = collect_memory(memory.stats(), job.layout.regions, requesters);
-  result.memory.write_queue_entries = dram.write_queue_entries;
   if (stream) {
     result.stream = stream->result();
   } else {
@@ -176,8 +201,10 @@ FrameResult run_frame(const MachineDesign& design, const FrameJob& job, const Me
   return run(design, job, image, dram, {}, options);
 }
 
-FrameResult run_stream(const MachineDesign& design, const FrameJob& job, const MemoryImage& image,
-                       const DramConfig& dram, double rate, const RunOptions& options) {
+FrameResult simulate_stream(const MachineDesign& design, const FrameJob& job,
+                            const MemoryImage& image, const DramConfig& dram, double rate,
+                            const RunOptions& options) {
   return run(design, job, image, dram, rate, options);
 }
+
 }  // namespace sgs

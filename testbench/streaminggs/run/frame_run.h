@@ -29,8 +29,9 @@ FrameResult run_frame(const MachineDesign& design, const FrameJob& job, const Me
 
 // The frames of a job back to back in one simulation, shown `rate` times a second; 0: each as soon
 // as it is drawn, in no time. All of the result but its stream is of all frames together.
-FrameResult run_stream(const MachineDesign& design, const FrameJob& job, const MemoryImage& image,
-                       const DramConfig& dram, double rate, const RunOptions& options);
+FrameResult simulate_stream(const MachineDesign& design, const FrameJob& job,
+                            const MemoryImage& image, const DramConfig& dram, double rate,
+                            const RunOptions& options);
 
 // As run_frame() in this process, which can do so once, and without files. For a child of its own
 // kind (testbench/process/child_process.h): an error of SystemC ends it.

@@ -17,6 +17,7 @@
 #include "algorithm/files/output_file.h"
 #include "algorithm/image/image_io.h"
 #include "testbench/streaminggs/report/contact_sheet.h"
+#include "testbench/streaminggs/report/json_table.h"
 #include "testbench/streaminggs/report/numbers.h"
 #include "testbench/streaminggs/report/terminal.h"
 #include "testbench/streaminggs/run/camera_check.h"
@@ -65,27 +66,6 @@ Json line_of(const Json& report) {
   return line;
 }
 
-// null: an empty field.
-std::string csv_of(const Json& lines) {
-  std::string text;
-  const auto add_line = [&](const Json& line, const auto& field) {
-    const char* comma = "";
-    for (const auto& [key, value] : line.items()) {
-      text += comma + field(key, value);
-      comma = ",";
-    }
-    text += "\n";
-  };
-  add_line(lines.at(0), [](const std::string& key, const Json&) { return key; });
-  for (const Json& line : lines) {
-    add_line(line, [](const std::string&, const Json& value) {
-      if (value.is_null()) return std::string();
-      return value.is_string() ? value.get<std::string>() : value.dump();
-    });
-  }
-  return text;
-}
-
 // Frames as they are drawn, and what the terminal says of them.
 class DrawnFrames {
  public:
@@ -95,8 +75,9 @@ class DrawnFrames {
   void add(ViewResult view, const Json& of_view) {
     const std::size_t number = frames_.size();
     const FixedRate& rate = view.fixed_rates.at(0);
-    frames_.push_back({view.run.time_s(), view.energy_j.total, rate.rest_j.total, is_empty(view),
-                       view.run.memory.energy_not_stated.empty() && rate.memory_not_stated.empty()});
+    frames_.push_back(
+        {view.run.time_s(), view.energy_j.total, rate.rest_j.total, is_empty(view),
+         view.run.memory.energy_not_stated.empty() && rate.memory_not_stated.empty()});
     lines_.push_back(line_of(of_view));
     all_equal_ = all_equal_ && view.equals_golden;
     if (view.psnr_db < worst_psnr_db_) worst_picture_ = number;
@@ -158,18 +139,22 @@ std::vector<std::filesystem::path> files_of_path(const PathJob& job, const Resul
   return files;
 }
 
+void print_doubt(const PathJob& job, const PreparedScene& scene) {
+  for (std::size_t i = 0; i < job.frames.size(); ++i) {
+    const std::string doubt = doubt_about(job.frames[i], scene.given());
+    if (doubt.empty()) continue;
+    fmt::print("frame {}: {}\n", i, doubt);
+    return;  // the others likely say the same
+  }
+}
+
 int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out, bool dropping) {
   const PreparedScene& scene = setting.scene;
   RunConfig& config = setting.config;
   RunReport report(config, setting.facts);
   const std::optional<RunConfig> later =
       with_codebooks(config, scene.stored.image.layout.second_half);
-  for (std::size_t i = 0; i < job.frames.size(); ++i) {
-    const std::string doubt = doubt_about(job.frames[i], scene.given());
-    if (doubt.empty()) continue;
-    fmt::print("frame {}: {}\n", i, doubt);
-    break;  // the others likely say the same
-  }
+  print_doubt(job, scene);
   const bool all = setting.detail == Detail::kAll;
   RunOptions options = setting.options;
   options.frame_rates = {job.frame_rate};

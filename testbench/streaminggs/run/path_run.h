@@ -21,6 +21,9 @@ struct PathJob {
 // Every file that run_path() writes, but for the report.
 std::vector<std::filesystem::path> files_of_path(const PathJob& job, const ResultFolder& out);
 
+// Prints a doubt about the first of its cameras that there is one about.
+void print_doubt(const PathJob& job, const PreparedScene& scene);
+
 // Simulates the frames of a path. Files of an earlier run in the folder are removed once the first
 // frame is done. Returns the exit status: 1 where a frame is not the golden renderer's. Throws
 // std::runtime_error, which names the frame, when one cannot be finished. dropping: as of

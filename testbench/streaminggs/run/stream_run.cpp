@@ -3,57 +3,183 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "algorithm/files/output_file.h"
 #include "algorithm/image/image_io.h"
 #include "algorithm/memory/frame_buffer.h"
-#include "testbench/cost/cost.h"
 #include "testbench/result/collect.h"
+#include "testbench/streaminggs/report/contact_sheet.h"
+#include "testbench/streaminggs/report/json_table.h"
 #include "testbench/streaminggs/report/numbers.h"
-#include "testbench/streaminggs/run/stream_summary.h"
+#include "testbench/streaminggs/report/terminal.h"
+#include "testbench/streaminggs/run/progress.h"
 #include "testbench/streaminggs/run/view_result.h"
 
 namespace sgs {
+namespace {
 
-std::vector<std::filesystem::path> files_of_stream(const PathJob& job, const ResultFolder& out) {
-  std::vector<std::filesystem::path> files;
-  for (std::size_t i = 0; i < job.frames.size(); ++i) files.push_back(out.frame(i));
-  return files;
+// Golden pictures of the frames, one after the other, and what they leave out together.
+class Judge {
+ public:
+  Judge(const PreparedScene& scene, const RunConfig& config, DataSheet& left_out)
+      : scene_(scene), config_(config), left_out_(left_out) {}
+
+  // bytes: of the frame that the display showed. picture: the frame.
+  StreamedPicture judge(int number, const Camera& camera, const std::vector<std::byte>& bytes,
+                        Image& picture) {
+    const ViewJob job = view_job(scene_, number, camera, config_);
+    const GoldenFrame golden = config_.design->golden(scene_.stored, job.frame, left_out_);
+    const ReferencePictures pictures = reference_pictures(
+        scene_, job.frame, config_.design->draws_reference() ? &golden.image : nullptr);
+    JudgedFrame judged = judge_frame(scene_, job, pictures, golden, bytes);
+    StreamedPicture out;
+    out.psnr_db = judged.psnr_db;
+    out.ssim = judged.ssim;
+    out.equals_golden = bytes == encode_frame(job.frame.frame_format, golden.image);
+    out.empty = golden.contributing == 0;
+    picture = std::move(judged.frame);
+    return out;
+  }
+
+ private:
+  const PreparedScene& scene_;
+  const RunConfig& config_;
+  DataSheet& left_out_;
+};
+
+std::string in_ms(double seconds) { return rounded(1e3 * seconds); }
+
+void print_display(const StreamSummary& s) {
+  if (s.rate == 0) return;
+  if (s.missed == 0) {
+    fmt::print("every frame is shown in its picture, {} a second\n", rounded(s.rate));
+  } else {
+    fmt::print("{} of {} frames miss their picture, {} a second: {} of {} repeat the one before\n",
+               s.missed, s.frames.size(), rounded(s.rate), s.repeated, s.pictures);
+  }
+  if (s.rows_late > 0) {
+    fmt::print("{} rows of pixels come to the display too late\n", grouped(s.rows_late));
+  }
+  fmt::print(
+      "motion to photon: median {} ms, worst {} ms; with poses latched late {} and {} ms; frames "
+      "wait {} ms for their picture, or more\n",
+      in_ms(s.latency.median_s), in_ms(s.latency.worst_s), in_ms(s.latched_late.median_s),
+      in_ms(s.latched_late.worst_s), in_ms(s.least_wait_s));
 }
 
-int run_stream_of(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
-  const RunConfig& config = setting.config;
-  const StoredScene& scene = setting.scene.stored;
-  const FrameJob frames = config.design->stream(scene, job.frames);
-  const FrameResult run =
-      run_stream(*config.design, frames, scene.image, config.dram, job.frame_rate, setting.options);
-  std::size_t equal = 0;
-  for (std::size_t i = 0; i < job.frames.size(); ++i) {
-    std::vector<LeftOut> entries;
-    LeftOutCollector left_out(entries);
-    const GoldenFrame golden =
-        config.design->golden(scene, config.design->job(scene, job.frames[i]), left_out);
-    const std::vector<std::byte>& bytes = run.stream.frames[i].bytes;
-    equal += bytes == encode_frame(frames.frame_format, golden.image) ? 1 : 0;
-    write_image(out.frame(i).string(), decode_frame(frames.frame_format, job.frames[i].width,
-                                                    job.frames[i].height, bytes));
+void print_flow(const StreamFlow& flow, bool memory_known) {
+  const double frames = static_cast<double>(flow.frames);
+  fmt::print("{} mJ and {} MB a frame; {} W{}", rounded(1e3 * flow.energy_j.total.middle / frames),
+             rounded(1e-6 * static_cast<double>(flow.bytes) / frames), rounded(flow.power_w()),
+             memory_known ? ", the memory: " : " without the memory\n");
+  if (!memory_known) return;
+  std::string states;
+  for (const MemoryState& state : flow.states) {
+    if (state.time_s == 0) continue;
+    states += fmt::format("{}{} {} % of the time, {} W", states.empty() ? "" : "; ", state.name,
+                          rounded(100 * state.time_s / flow.time_s),
+                          rounded(state.energy_j / flow.time_s));
   }
-  const StreamSummary s = summarise(run.stream, job.frame_rate);
-  fmt::print("{} frames: {} frames a second, {} pictures, {} repeated; idle {} of {} s\n", s.frames,
-             rate_in_words(s.frames_s), s.pictures, s.repeated, s.idle_s, run.time_s());
-  fmt::print("latency ms median {} worst {}; late latch {} {}\n", 1e3 * s.latency_median_s,
-             1e3 * s.latency_worst_s, 1e3 * s.late_median_s, 1e3 * s.late_worst_s);
-  const CostResult energy = energy_of(run, setting.technology);
-  fmt::print("{} mJ a frame, {} MB a frame, {} cycles, equal {} of {}\n",
-             1e3 * energy.total.middle / static_cast<double>(s.frames),
-             1e-6 * static_cast<double>(run.memory.bytes) / static_cast<double>(s.frames),
-             run.cycles, equal, s.frames);
-  for (const StreamedFrame& f : run.stream.frames) {
-    fmt::print("  pose {:.3f} begun {:.3f} drawn {:.3f} shown {:.3f} ms\n", 1e3 * f.pose_s,
-               1e3 * f.begun_s, 1e3 * f.drawn_s, 1e3 * f.shown_s);
+  fmt::print("{}\n", states);
+}
+
+void print_frames(const StreamReport& stream) {
+  fmt::print("{:>5} {:>10} {:>10} {:>10} {:>8} {:>6} {:>8} {:>8}\n", "frame", "begun ms",
+             "drawn ms", "shown ms", "ms", "held", "PSNR dB", "= golden");
+  for (std::size_t i = 0; i < stream.frames.size(); ++i) {
+    const StreamedPicture& frame = stream.frames[i];
+    const FrameTiming& t = frame.timing;
+    fmt::print("{:>5} {:>10.4f} {:>10.4f} {:>10.4f} {:>8.4f} {:>6} {:>8} {:>8}\n", i,
+               1e3 * t.begun_s, 1e3 * t.drawn_s, 1e3 * t.shown_s, 1e3 * t.time_s(),
+               t.held ? "yes" : "NO",
+               std::isinf(frame.psnr_db) ? "equal" : fmt::format("{:.2f}", frame.psnr_db),
+               frame.equals_golden ? "yes" : "NO");
   }
-  return equal == s.frames ? 0 : 1;
+}
+
+void print_stream(const StreamReport& stream, const ViewResult& all) {
+  const StreamSummary& s = stream.summary;
+  fmt::print("\n{} frames along {}, back to back: {} frames a second\n", s.frames.size(),
+             stream.name, rate_in_words(s.frames_per_s));
+  fmt::print("from pose to last pixel: worst {} ms (frame {}), p99 {} ms, median {} ms\n",
+             in_ms(s.frame_time.worst_s), s.worst_frame, in_ms(s.frame_time_p99_s),
+             in_ms(s.frame_time.median_s));
+  print_display(s);
+  print_flow(stream.flow, all.run.memory.energy_not_stated.empty());
+  if (s.rate == 0 || s.missed > 0) fmt::print("all frames: {}\n", all.binding.sentence());
+  std::size_t empty = 0, worst = 0;
+  for (std::size_t i = 0; i < stream.frames.size(); ++i) {
+    empty += stream.frames[i].empty ? 1 : 0;
+    if (stream.frames[i].psnr_db < stream.frames[worst].psnr_db) worst = i;
+  }
+  print_empty(empty, stream.frames.size(), "frames");
+  if (std::isinf(stream.frames[worst].psnr_db)) {
+    fmt::print("every frame equals its reference picture\n");
+  } else {
+    fmt::print("PSNR: worst {:.2f} dB (frame {})\n", stream.frames[worst].psnr_db, worst);
+  }
+}
+
+}  // namespace
+
+int run_stream(const PathJob& job, RunSetting& setting, const ResultFolder& out, bool dropping) {
+  const PreparedScene& scene = setting.scene;
+  RunConfig& config = setting.config;
+  RunReport report(config, setting.facts);
+  print_doubt(job, scene);
+  FrameJob frames;
+  naming_origins(config, [&] { frames = config.design->stream(scene.stored, job.frames); });
+  check_capacity(frames, config.dram);
+  ViewResult all;
+  all.image_hash = scene.image_hash;
+  all.run = simulate_stream(*config.design, frames, scene.stored.image, config.dram, job.frame_rate,
+                            setting.options);
+  account(all, config.dram, setting.technology);
+  LeftOutCollector left_out(all.left_out);
+  list_left_out(scene.stored, all.run.machine, left_out);
+  StreamReport stream{
+      job.name, summarise(all.run, job.frame_rate), flow_of(all.run, setting.technology), {}};
+  Judge judge(scene, config, left_out);
+  ContactSheet sheet(job.frames.size());
+  bool all_equal = true;
+  {
+    ProgressLine progress;
+    for (std::size_t i = 0; i < job.frames.size(); ++i) {
+      Image picture;
+      StreamedPicture frame =
+          judge.judge(static_cast<int>(i), job.frames[i], all.run.stream.frames[i].bytes, picture);
+      frame.timing = stream.summary.frames[i];
+      write_image(out.frame(i).string(), picture);
+      if (i == 0) out.keep_only({out.frame(0)});
+      if (sheet.shows(i)) {
+        sheet.add(picture, fmt::format("{} - {} ms", i, in_ms(frame.timing.time_s())));
+      }
+      all_equal = all_equal && frame.equals_golden;
+      stream.frames.push_back(frame);
+      progress.say(fmt::format("{} of {} frames judged", i + 1, job.frames.size()));
+    }
+  }
+  const nlohmann::ordered_json text = report.of_stream(stream, report.of_all(all, scene));
+  OutputSet files;
+  files.add(out.report().string()).write(report_text(text));
+  files.add(out.path_table().string()).write(csv_of(text["stream"]["frames"]));
+  write_image(files.add(out.contact_sheet().string()), sheet.sheet());
+  files.commit();
+  if (setting.detail == Detail::kAll) print_frames(stream);
+  print_stream(stream, all);
+  print_scene(scene, config, dropping);
+  print_unknown_energy(all);
+  print_area(all, setting.technology.name, setting.detail);
+  if (setting.detail == Detail::kAll) print_lanes(all);
+  print_choices(config.chosen, setting.detail);
+  if (!all_equal) fmt::print("\na frame differs from the streaming renderer's\n");
+  fmt::print("\nwritten to {}\n", out.report().parent_path().string());
+  return all_equal ? 0 : 1;
 }
 
 }  // namespace sgs

@@ -1,45 +1,98 @@
+// Orders of times, and differences of counts.
 #include "testbench/streaminggs/run/stream_summary.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sgs {
 namespace {
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[(values.size() - 1) / 2];
+double at_share(std::vector<double> times, double share) {
+  std::sort(times.begin(), times.end());
+  const double place = std::ceil(share * static_cast<double>(times.size()));
+  return times[static_cast<std::size_t>(std::max(place, 1.0)) - 1];
 }
+
+template <class Time>
+MedianAndWorst median_and_worst(const std::vector<FrameTiming>& frames, const Time& time_of) {
+  std::vector<double> times;
+  for (const FrameTiming& frame : frames) times.push_back(time_of(frame));
+  return {at_share(times, 0.5), at_share(times, 1)};
+}
+
+// Moments are rounded to the kernel's resolution; a picture lies whole periods after another.
+constexpr double kOfPeriod = 1e-6;
 
 }  // namespace
 
-StreamSummary summarise(const StreamResult& stream, double rate) {
+StreamSummary summarise(const FrameResult& run, double rate) {
+  const StreamResult& stream = run.stream;
   StreamSummary out;
-  const std::vector<StreamedFrame>& frames = stream.frames;
-  out.frames = frames.size();
+  out.rest_s = static_cast<double>(run.rest_cycles) / (run.clock_mhz * 1e6);
   out.rate = rate;
   out.pictures = stream.pictures;
   out.repeated = stream.repeated;
-  const double half_s = rate > 0 ? 0.5 / rate : 0;  // to the middle row
-  std::vector<double> early, late;
-  double busy_until_s = 0;
-  for (const StreamedFrame& frame : frames) {
-    // Of the picture that was due last when the frame began, within rounding of the kernel's time.
-    const double pose_s =
-        rate > 0 ? std::max(frame.pose_s, std::floor(frame.begun_s * rate + 1e-6) / rate)
-                 : frame.begun_s;
-    early.push_back(frame.shown_s + half_s - pose_s);
-    late.push_back(frame.shown_s + half_s - frame.begun_s);
-    out.idle_s += std::max(0.0, frame.begun_s - busy_until_s);
-    busy_until_s = std::max(busy_until_s, frame.drawn_s);
+  out.rows_late = stream.rows_late;
+  const double period_s = rate > 0 ? 1 / rate : 0;
+  out.least_wait_s = std::numeric_limits<double>::infinity();
+  double shown_before_s = 0;
+  std::vector<double> times;
+  for (const StreamedFrame& of : stream.frames) {
+    FrameTiming frame;
+    frame.begun_s = of.begun_s;
+    frame.drawn_s = of.drawn_s;
+    frame.shown_s = of.shown_s;
+    frame.pose_s = rate > 0 ? std::floor(of.begun_s * rate + kOfPeriod) * period_s : of.begun_s;
+    frame.held = rate == 0 || of.shown_s - shown_before_s < (1 + kOfPeriod) * period_s;
+    shown_before_s = of.shown_s;
+    const double light_s = of.shown_s + period_s / 2;
+    frame.latency_s = light_s - frame.pose_s;
+    frame.latched_late_s = light_s - of.begun_s;
+    out.least_wait_s = std::min(out.least_wait_s, of.shown_s - of.drawn_s);
+    out.missed += frame.held ? 0 : 1;
+    times.push_back(frame.time_s());
+    if (frame.time_s() > times[out.worst_frame]) out.worst_frame = times.size() - 1;
+    out.frames.push_back(frame);
   }
-  out.latency_median_s = median(early);
-  out.latency_worst_s = *std::max_element(early.begin(), early.end());
-  out.late_median_s = median(late);
-  out.late_worst_s = *std::max_element(late.begin(), late.end());
-  const double behind_s = frames.back().drawn_s - frames.front().drawn_s;
-  if (frames.size() > 1) out.frames_s = static_cast<double>(frames.size() - 1) / behind_s;
+  out.frame_time = median_and_worst(out.frames, [](const FrameTiming& f) { return f.time_s(); });
+  out.frame_time_p99_s = at_share(times, 0.99);
+  out.latency = median_and_worst(out.frames, [](const FrameTiming& f) { return f.latency_s; });
+  out.latched_late =
+      median_and_worst(out.frames, [](const FrameTiming& f) { return f.latched_late_s; });
+  const double behind_s = out.frames.back().shown_s - out.frames.front().shown_s;
+  out.frames_per_s = static_cast<double>(out.frames.size() - 1) / behind_s;
   return out;
+}
+
+StreamFlow flow_of(const FrameResult& run, const Technology& technology) {
+  const std::vector<FrameResult>& shown = run.stream.first_and_last_shown;
+  StreamFlow flow;
+  const FrameResult& end = shown.empty() ? run : shown.back();
+  flow.states = end.memory.states;
+  flow.commands = end.memory.commands;
+  flow.bytes = end.memory.bytes;
+  flow.bus_bytes = end.memory.bus_bytes;
+  flow.time_s = end.time_s();
+  flow.frames = run.stream.frames.size();
+  if (shown.empty()) {
+    flow.energy_j = energy_of(run, technology);
+    return flow;
+  }
+  const FrameResult& begin = shown.front();
+  flow.energy_j = energy_between(begin, end, technology);
+  flow.time_s -= begin.time_s();
+  --flow.frames;
+  flow.bytes -= begin.memory.bytes;
+  flow.bus_bytes -= begin.memory.bus_bytes;
+  for (std::size_t s = 0; s < flow.states.size(); ++s) {
+    flow.states[s].time_s -= begin.memory.states[s].time_s;
+    flow.states[s].energy_j -= begin.memory.states[s].energy_j;
+  }
+  for (std::size_t c = 0; c < flow.commands.size(); ++c) {
+    flow.commands[c].second -= begin.memory.commands[c].second;
+  }
+  return flow;
 }
 
 }  // namespace sgs

@@ -1,29 +1,64 @@
-// Rates and latencies of a stream of frames.
+// Times, latencies and joules of a stream of frames.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "testbench/cost/cost.h"
 #include "testbench/result/frame_result.h"
 
 namespace sgs {
 
-struct StreamSummary {
-  std::size_t frames = 0;
-  double rate = 0;      // pictures a second as asked for; 0: each frame as soon as it is drawn
-  double frames_s = 0;  // frames a second behind the first, from last pixel to last pixel
-  std::uint64_t pictures = 0, repeated = 0;
-  bool held() const { return repeated == 0; }
-  // Of a frame: from its pose to the light of the picture's middle row. With the pose of the
-  // display's last picture before the frame began, and with the pose as it is when the frame
-  // begins.
-  double latency_median_s = 0, latency_worst_s = 0, late_median_s = 0, late_worst_s = 0;
-  // Time in which no frame is under way.
-  double idle_s = 0;
+// Seconds since the start, but for latencies.
+struct FrameTiming {
+  double pose_s = 0;   // of the last pose that the host had sent when the frame began
+  double begun_s = 0;  // the machine took it
+  double drawn_s = 0, shown_s = 0;
+  // The frame is shown in the picture behind that of the frame before it; the first in the first
+  // picture. Without a display all are.
+  bool held = true;
+  double time_s() const { return drawn_s - begun_s; }
+  // From a pose to the light of the picture's middle row: from pose_s, and from the moment when the
+  // frame begins.
+  double latency_s = 0, latched_late_s = 0;
 };
 
-// stream: at least one frame.
-StreamSummary summarise(const StreamResult& stream, double rate);
+// The middle and the largest of several times.
+struct MedianAndWorst {
+  double median_s = 0, worst_s = 0;
+};
+
+struct StreamSummary {
+  double rate = 0;  // pictures a second as asked for; 0: each frame as soon as it is drawn
+  std::vector<FrameTiming> frames;
+  std::uint64_t pictures = 0, repeated = 0, rows_late = 0;
+  std::size_t missed = 0;   // frames that are not held
+  double frames_per_s = 0;  // from the first to the last that is shown
+  MedianAndWorst frame_time, latency, latched_late;
+  double least_wait_s = 0;      // of a frame in memory, for its picture
+  double rest_s = 0;            // in which no frame is under way
+  double frame_time_p99_s = 0;  // at place ceil(0.99 n) when the quickest comes first
+  std::size_t worst_frame = 0;
+};
+
+// run: of a stream, of at least two frames.
+StreamSummary summarise(const FrameResult& run, double rate);
+
+// What a stream takes while it flows: with a display from the first frame's picture to the last
+// one's, so that as many frames are drawn as are shown; else from its start to its end.
+struct StreamFlow {
+  double time_s = 0;
+  std::size_t frames = 0;
+  CostResult energy_j;
+  std::uint64_t bytes = 0, bus_bytes = 0;
+  std::vector<MemoryState> states;
+  std::vector<std::pair<std::string, double>> commands;  // J
+  Band power_w() const { return 1 / time_s * energy_j.total; }
+};
+
+StreamFlow flow_of(const FrameResult& run, const Technology& technology);
 
 }  // namespace sgs

@@ -17,18 +17,6 @@
 namespace sgs {
 namespace {
 
-void check_capacity(const FrameJob& job, const DramConfig& dram) {
-  const std::uint64_t capacity = AddressMapping(dram, load_memspec(dram.memspec)).capacity_bytes();
-  const std::uint64_t needed = job.layout.regions.total_bytes();
-  if (needed <= capacity) return;
-  const auto& largest =
-      *std::max_element(job.layout.regions.begin(), job.layout.regions.end(),
-                        [](const Region& a, const Region& b) { return a.bytes < b.bytes; });
-  throw InputError(fmt::format(
-      "dram: the scene and its frame take {} bytes ({} alone {}), {} channels x {} ranks hold {}",
-      needed, largest.name, largest.bytes, dram.channels, dram.ranks, capacity));
-}
-
 // Bytes of a Gaussian, were the scene stored with colours of another degree.
 std::uint64_t record_bytes(const StoredScene& scene, int sh_degree) {
   const SceneLayout& layout = scene.image.layout;
@@ -59,7 +47,20 @@ void list_sh_bands(const StoredScene& scene, DataSheet& sheet) {
        whole, stored);
 }
 
-// Lists the data that the storage and the machine left out.
+}  // namespace
+
+void check_capacity(const FrameJob& job, const DramConfig& dram) {
+  const std::uint64_t capacity = AddressMapping(dram, load_memspec(dram.memspec)).capacity_bytes();
+  const std::uint64_t needed = job.layout.regions.total_bytes();
+  if (needed <= capacity) return;
+  const auto& largest =
+      *std::max_element(job.layout.regions.begin(), job.layout.regions.end(),
+                        [](const Region& a, const Region& b) { return a.bytes < b.bytes; });
+  throw InputError(fmt::format(
+      "dram: the scene and its frame take {} bytes ({} alone {}), {} channels x {} ranks hold {}",
+      needed, largest.name, largest.bytes, dram.channels, dram.ranks, capacity));
+}
+
 void list_left_out(const StoredScene& scene, const MachineResult& machine, DataSheet& sheet) {
   const SceneLayout& layout = scene.image.layout;
   const std::uint64_t invisible = scene.gaussians - layout.gaussian_count();
@@ -70,8 +71,6 @@ void list_left_out(const StoredScene& scene, const MachineResult& machine, DataS
     sheet.left_out(entry.what.c_str(), entry.why.c_str(), entry.count, entry.saves);
   }
 }
-
-}  // namespace
 
 ViewJob view_job(const PreparedScene& scene, int view, const Camera& camera,
                  const RunConfig& config) {
@@ -108,6 +107,17 @@ JudgedFrame judge_frame(const PreparedScene& scene, const ViewJob& job,
   return out;
 }
 
+void account(ViewResult& view, const DramConfig& dram, const Technology& technology) {
+  view.area_totals_mm2 = area_totals(view.run, technology);
+  view.memory_interface = memory_interface_of(dram, technology);
+  view.binding = find_binding(view.run, view.area_totals_mm2);
+  view.energy_j = energy_of(view.run, technology);
+  view.energy_totals_j = energy_totals(view.run, technology);
+  view.area_mm2 = area_of(view.run, technology);
+  view.area_by_owner_mm2 = area_by_owner(view.run, technology);
+  view.sram_model = technology.sram;
+}
+
 ViewResult view_result(const PreparedScene& scene, const ViewJob& job, ReferencePictures pictures,
                        GoldenFrame golden, JudgedFrame judged, FrameResult run,
                        const DramConfig& dram, const Technology& technology) {
@@ -119,15 +129,8 @@ ViewResult view_result(const PreparedScene& scene, const ViewJob& job, Reference
   view.golden = std::move(golden);
   view.run = std::move(run);
   view.image_hash = scene.image_hash;
-  view.area_totals_mm2 = area_totals(view.run, technology);
-  view.memory_interface = memory_interface_of(dram, technology);
-  view.binding = find_binding(view.run, view.area_totals_mm2);
+  account(view, dram, technology);
   if (is_empty(view)) view.binding = without_advice(view.binding);
-  view.energy_j = energy_of(view.run, technology);
-  view.energy_totals_j = energy_totals(view.run, technology);
-  view.area_mm2 = area_of(view.run, technology);
-  view.area_by_owner_mm2 = area_by_owner(view.run, technology);
-  view.sram_model = technology.sram;
   const SceneLayout& layout = scene.stored.image.layout;
   view.once_bytes = view.golden.contributing * layout.record_bytes() + job.frame.frame_buffer.bytes;
   return view;

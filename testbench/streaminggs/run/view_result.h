@@ -87,6 +87,15 @@ ViewResult view_result(const PreparedScene& scene, const ViewJob& job, Reference
                        GoldenFrame golden, JudgedFrame judged, FrameResult run,
                        const DramConfig& dram, const Technology& technology);
 
+// Fills in what follows from the counts of a simulation, in `run`: joules, area, bottleneck.
+void account(ViewResult& view, const DramConfig& dram, const Technology& technology);
+
+// Lists the data that the storage and the machine left out.
+void list_left_out(const StoredScene& scene, const MachineResult& machine, DataSheet& sheet);
+
+// Throws InputError when scene and frames do not fit the memory.
+void check_capacity(const FrameJob& job, const DramConfig& dram);
+
 // Simulates one view and judges it: golden picture, costs, binding unit. Throws InputError when
 // scene and frame do not fit the memory, std::runtime_error when the simulation fails.
 ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& camera,

@@ -15,7 +15,7 @@ ToyMachine::ToyMachine(const sc_core::sc_module_name& name, const ToyConfig& con
   if (options.stalls.probability > 0) colours_.inject(options.stalls);
   fetch_.colours(colours_);
   write_.colours(colours_);
-  connect_memory();
+  connect_memory(1);
 }
 
 void ToyMachine::publish(DataSheet& sheet) {
