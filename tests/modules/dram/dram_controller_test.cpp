@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "tests/modules/dram/test_initiator.h"
@@ -251,6 +252,61 @@ TEST_CASE("dram controller: time, bandwidth and refreshes of idle time are accou
     CHECK(s.energy.total_pj() > 0);
     CHECK(s.energy.by_current_set_pj.size() == 2);
   });
+}
+
+// Until it is told that no frame is under way it stays up, however long nobody asks.
+struct RestCase {
+  BetweenFrames where;
+  bool power_down, self_refresh;
+};
+
+void check_rest(const RestCase& row) {
+  DramConfig config = quiet();
+  config.between_frames = row.where;
+  config.channels = 1;
+  run(config, [&](Initiator& i, DramController& dram) {
+    const auto rested = [&] {
+      const RankActivity rank = dram.stats().ranks.at(0);
+      return std::pair(rank.active_power_down_cycles + rank.precharged_power_down_cycles,
+                       rank.self_refresh_cycles);
+    };
+    i.begin(i.make(tlm::TLM_READ_COMMAND, 0, 32));
+    sc_core::wait(10, sc_core::SC_US);
+    CHECK(rested() == std::pair<std::uint64_t, std::uint64_t>(0, 0));
+    dram.rest(true);
+    sc_core::wait(10, sc_core::SC_US);
+    const auto [power_down, self_refresh] = rested();
+    constexpr std::uint64_t kNearly = 7900;  // of 8000 cycles
+    CHECK((power_down > kNearly) == row.power_down);
+    CHECK((self_refresh > kNearly) == row.self_refresh);
+    CHECK(power_down + self_refresh == (row.power_down ? power_down : self_refresh));
+    const sc_time asked = sc_core::sc_time_stamp();
+    i.begin(i.make(tlm::TLM_READ_COMMAND, 32, 32));
+    sc_core::wait(2, sc_core::SC_US);
+    REQUIRE(i.answers.size() == 2);
+    const sc_time took = i.answers[1] - asked;
+    CHECK((took > sc_time(kHitNs, SC_NS)) == (row.power_down || row.self_refresh));
+    dram.rest(false);
+    const auto before = rested();
+    i.begin(i.make(tlm::TLM_READ_COMMAND, 64, 32));
+    sc_core::wait(1, sc_core::SC_US);
+    const auto woken = rested();
+    sc_core::wait(10, sc_core::SC_US);
+    CHECK(rested() == woken);
+    CHECK(woken.first + woken.second <= before.first + before.second + 400);
+  });
+}
+
+TEST_CASE("dram controller: ranks refresh themselves while no frame is under way") {
+  check_rest({BetweenFrames::kSelfRefresh, false, true});
+}
+
+TEST_CASE("dram controller: ranks power down while no frame is under way") {
+  check_rest({BetweenFrames::kPowerDown, true, false});
+}
+
+TEST_CASE("dram controller: ranks stay up while no frame is under way, by their idle cycles") {
+  check_rest({BetweenFrames::kByIdleCycles, false, false});
 }
 
 }  // namespace
