@@ -187,7 +187,7 @@ class Running(InFolder):
         self.assertEqual(set(columns) - filled, set())
         (row,) = self.sweep([{}], more=["config.hfu", "units.merge"])
         self.assertLess(len(columns) + 40, len(row))
-        self.assertEqual(row["config.hfu.cfus"], 4)
+        self.assertEqual(row["config.hfu.cfus"], 1)
         self.assertNotIn("config.hfus", row)
 
     def test_an_equal_picture_has_infinite_psnr(self):
