@@ -98,8 +98,8 @@ class Recorder {
   tb::MergeGroup group(const PixelRect& pixels) {
     tb::MergeGroup out;
     TreeInMemory source{stored_.table, {}};
-    ChunkWalk walk(view_, source, ExactConfig{}.vsu.walk_room());
-    walk.begin(pixels, stored_.table.nodes.empty());
+    ChunkWalk walk(source, ExactConfig{}.vsu.walk_room());
+    walk.begin(view_, pixels, stored_.table.nodes.empty());
     GroupState state(pixels, view_.width, view_.height);
     std::set<std::pair<float, std::uint32_t>> waiting;
     std::uint64_t released = 0;
