@@ -21,6 +21,9 @@ struct Camera {
   glm::dmat3 world_from_camera{1.0};
   // The principal point minus the middle of the picture, px; x right, y down.
   glm::dvec2 principal_offset{0.0};
+  // Distance of a second eye to the right of this one, along the x axis and with the same axes,
+  // world units; 0: there is none.
+  double eyes_apart = 0;
   // How its file states poses, for messages; a text that stays. Empty: no file does.
   std::string_view axes;
 };

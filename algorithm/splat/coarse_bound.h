@@ -118,17 +118,20 @@ FrameSides<T> frame_sides(const View<T>& view) {
   return sides;
 }
 
-// False: no pixel of the frame can show it.
+// False: no pixel of the frame can show it, nor of the other eye's.
 template <class T>
 bool may_touch_frame(const View<T>& view, const FrameSides<T>& sides, const glm::vec<3, T>& mean,
                      T scale_max) {
   const glm::vec<3, T> v = to_camera(view, mean);
   if (!(v.z > constant<T>(kNearPlane))) return false;
   const T reach = T(sides.grow * scale_max);
-  const auto beyond = [&](const T& at, const T& before, const T& behind) {
-    return T(T(reach + at) + before * v.z) < T(0.0F) || T(T(reach - at) + behind * v.z) < T(0.0F);
+  // at, last: as seen by the first and by the last of the view's eyes.
+  const auto beyond = [&](const T& at, const T& last, const T& before, const T& behind) {
+    return T(T(reach + at) + before * v.z) < T(0.0F) || T(T(reach - last) + behind * v.z) < T(0.0F);
   };
-  return !beyond(v.x, sides.left, sides.right) && !beyond(v.y, sides.above, sides.below);
+  const T last_x = view.eyes > 1 ? T(v.x - view.eyes_apart) : v.x;
+  return !beyond(v.x, last_x, sides.left, sides.right) &&
+         !beyond(v.y, v.y, sides.above, sides.below);
 }
 
 }  // namespace sgs

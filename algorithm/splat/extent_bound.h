@@ -138,20 +138,41 @@ std::uint8_t subtile_of(T px, int begin_px) {
   return static_cast<std::uint8_t>((static_cast<int>(value_of(px)) - begin_px) / kSubtilePx);
 }
 
-// The reach of a bound that touches the group.
+// First and last pixel column and row of the group that something may change.
 template <class T>
-GroupReach group_reach(const ExtentBoundOf<T>& bound, const PixelRect& group) {
+struct ReachedPixelsOf {
+  T x0, x1, y0, y1;
+};
+
+// Those of a bound that touches the group.
+template <class T>
+ReachedPixelsOf<T> reached_pixels(const ExtentBoundOf<T>& bound, const PixelRect& group) {
   using std::ceil, std::floor;
   const auto along = [&](T at, T reach_squared, int begin, int end) {
     const T reach = T(bound.slack_px + root_above(reach_squared));
     // A value that is not a number leaves the group's own edge.
-    const T first = max_of(T(static_cast<float>(begin)), T(ceil(T(at - reach))));
-    const T last = min_of(T(static_cast<float>(end - 1)), T(floor(T(at + reach))));
-    return std::array<std::uint8_t, 2>{subtile_of(first, begin), subtile_of(last, begin)};
+    return std::array<T, 2>{max_of(T(static_cast<float>(begin)), T(ceil(T(at - reach)))),
+                            min_of(T(static_cast<float>(end - 1)), T(floor(T(at + reach))))};
   };
   const auto [x0, x1] = along(bound.x, bound.reach_squared_x, group.x0, group.x1);
   const auto [y0, y1] = along(bound.y, bound.reach_squared_y, group.y0, group.y1);
-  return {x0, y0, x1, y1};
+  return {x0, x1, y0, y1};
+}
+
+// What two eyes may change.
+template <class T>
+ReachedPixelsOf<T> of_both(const ReachedPixelsOf<T>& a, const ReachedPixelsOf<T>& b) {
+  return {min_of(a.x0, b.x0), max_of(a.x1, b.x1), min_of(a.y0, b.y0), max_of(a.y1, b.y1)};
+}
+
+template <class T>
+GroupReach group_reach(const ReachedPixelsOf<T>& pixels, const PixelRect& group) {
+  return {subtile_of(pixels.x0, group.x0), subtile_of(pixels.y0, group.y0),
+          subtile_of(pixels.x1, group.x0), subtile_of(pixels.y1, group.y0)};
+}
+template <class T>
+GroupReach group_reach(const ExtentBoundOf<T>& bound, const PixelRect& group) {
+  return group_reach(reached_pixels(bound, group), group);
 }
 
 }  // namespace sgs

@@ -57,7 +57,7 @@ bool reaches_group(const SplatOf<T>& s, const PixelRect& pixels) {
 template <class T>
 void add_colour(const View<T>& view, int sh_degree, const glm::vec<3, T>& mean,
                 const glm::vec<3, T>* sh, SplatOf<T>& out) {
-  out.rgb = sh_colour(sh_degree, sh, from_eye(view, mean));
+  out.rgb = sh_colour(sh_degree, sh, sight(view, mean));
 }
 
 }  // namespace sgs

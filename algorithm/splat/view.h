@@ -24,6 +24,15 @@ struct View {
   // 0.
   T centre_x, centre_y;
   int width, height;  // px
+  // eyes: 2 where it is the left one of two eyes with parallel axes, `eyes_apart`; tests of boxes
+  // and of frames then hold for both, all else is of the one. aside: it is the right one. That
+  // computes from the same `position` with the same axes, and is moved by `eye` in the camera
+  // frame, by to_eye in the world: so v_y and v_z are those of the left eye to the bit.
+  bool aside;
+  T eye;
+  glm::vec<3, T> to_eye;
+  int eyes;
+  T eyes_apart;
 };
 
 // Largest singular value of R, from above: sqrt of the largest row sum of |R^T R|. 1 for a
@@ -67,6 +76,19 @@ View<T> make_view(const Camera& camera) {
   view.centre_y = constant<T>(0.5 * (camera.height - 1) + offset.y);
   view.width = camera.width;
   view.height = camera.height;
+  view.eyes = camera.eyes_apart != 0 ? 2 : 1;
+  view.eyes_apart = constant<T>(camera.eyes_apart);
+  return view;
+}
+
+// What the right eye sees whose left one this is.
+template <class T>
+View<T> right_eye(const View<T>& left) {
+  View<T> view = left;
+  view.aside = true;
+  view.eye = left.eyes_apart;
+  for (int k = 0; k < 3; ++k) view.to_eye[k] = T(left.eyes_apart * left.cam_from_world[0][k]);
+  view.eyes = 1;
   return view;
 }
 
@@ -79,7 +101,15 @@ glm::vec<3, T> from_eye(const View<T>& view, const glm::vec<3, T>& p) {
           T(T(p.z - view.position.z) - view.position_low.z)};
 }
 
-// v = R^T (p - c), camera frame.
+// The direction in which the view's own eye sees p, world frame, not normalised.
+template <class T>
+glm::vec<3, T> sight(const View<T>& view, const glm::vec<3, T>& p) {
+  const auto d = from_eye(view, p);
+  if (!view.aside) return d;
+  return {T(d.x - view.to_eye.x), T(d.y - view.to_eye.y), T(d.z - view.to_eye.z)};
+}
+
+// v = R^T (p - c), camera frame; of an eye beside c, x from there.
 template <class T>
 glm::vec<3, T> to_camera(const View<T>& view, const glm::vec<3, T>& p) {
   const auto d = from_eye(view, p);
@@ -88,6 +118,7 @@ glm::vec<3, T> to_camera(const View<T>& view, const glm::vec<3, T>& p) {
     const auto& axis = view.cam_from_world[row];
     v[row] = T(axis.x * d.x + axis.y * d.y + axis.z * d.z);
   }
+  if (view.aside) v.x = T(v.x - view.eye);
   return v;
 }
 

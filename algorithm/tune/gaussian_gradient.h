@@ -160,7 +160,7 @@ Gaussian<T> gaussian_gradient(const View<T>& view, const Gaussian<T>& g, int sh_
                               glm::vec<3, T>* by_sh) {
   Gaussian<T> out = projection_gradient(view, g, to_camera(view, g.mean), splat, rule);
   const auto by_offset =
-      colour_gradient(sh_degree, sh, from_eye(view, g.mean), colour, splat.rgb, by_sh);
+      colour_gradient(sh_degree, sh, sight(view, g.mean), colour, splat.rgb, by_sh);
   for (int k = 0; k < 3; ++k) out.mean[k] = T(out.mean[k] + by_offset[k]);
   return out;
 }

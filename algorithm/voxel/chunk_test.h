@@ -23,6 +23,10 @@
 // within F fx / v_z sum_a |n_a| E_a + c at the nearest v_z. The ranges of v hold what is computed
 // (16 eps sum_a |p_a - c_a|, of which 5 are a Gaussian's), the ratios' 1e-5 the quotient and fx's
 // product, F's 1.0002 the reach, and of the 0.05 px in c 0.03 are left for cx below 2^15.
+// Two eyes (view.h): v_x of the right one is smaller by their distance. Of a left eye the range of
+// v_x reaches so far lower, and the right side of the group is tested with the right eye: what
+// passes neither test is seen by neither, and sub-tiles are those of both. The subtraction rounds
+// by less than eps of the sum that the ranges are widened by, which holds the distance too.
 #pragma once
 
 #include <cmath>
@@ -75,8 +79,9 @@ class GroupFrustumOf {
   static T reach_along(const Vec& axis, const Vec& axis_z, Interval range, const Vec& extent);
   // One side of the group: a point passes when direction . v >= 0 in the camera frame.
   // from_middle_px: from the view's middle to the side, outward.
+  // eyes: what the eye that sees this side best adds to the sum, by its place beside the centre.
   bool beyond_side(const Vec& centre, const Vec& half, int axis, T sign, T from_middle_px,
-                   T padding_px, T reach, T rounding) const;
+                   T padding_px, T reach, T rounding, T eyes) const;
 
   const View<T>& view_;
   PixelRect pixels_;
@@ -117,12 +122,13 @@ typename GroupFrustumOf<T>::Interval GroupFrustumOf<T>::clamped(Interval ratio, 
 
 template <class T>
 bool GroupFrustumOf<T>::beyond_side(const Vec& centre, const Vec& half, int axis, T sign,
-                                    T from_middle_px, T padding_px, T reach, T rounding) const {
+                                    T from_middle_px, T padding_px, T reach, T rounding,
+                                    T eyes) const {
   using std::abs;
   using std::isfinite;
   const T focal = axis == 0 ? view_.focal_x : view_.focal_y;
   const T slope = from_middle_px + padding_px;
-  T most = T(0.0F);
+  T most = eyes;
   for (int a = 0; a < 3; ++a) {
     const T n = sign * focal * view_.cam_from_world[axis][a] + slope * view_.cam_from_world[2][a];
     most = most + (n * centre[a] + T(abs(n)) * half[a]);
@@ -147,6 +153,8 @@ typename GroupFrustumOf<T>::Compared GroupFrustumOf<T>::compared(
     half[a] = (high[a] - centre[a]) * T(1 + 4 * kRoundoff) + T(4 * kRoundoff) * T(abs(centre[a]));
     far_sum = far_sum + (T(abs(centre[a])) + half[a]);
   }
+  if (view_.aside) far_sum = far_sum + view_.eye;
+  if (view_.eyes > 1) far_sum = far_sum + view_.eyes_apart;
   const auto range_along = [&](int axis) {
     T at = T(0.0F), spread = T(0.0F);
     for (int a = 0; a < 3; ++a) {
@@ -161,7 +169,10 @@ typename GroupFrustumOf<T>::Compared GroupFrustumOf<T>::compared(
   if (depth.high < near_plane) return {};
   // Beyond float depth.low may not be a number: then nothing is known.
   const Interval z{depth.low > near_plane ? depth.low : near_plane, depth.high};
-  const Interval x_ratio = ratio_range(range_along(0), z), y_ratio = ratio_range(range_along(1), z);
+  Interval x = range_along(0);
+  if (view_.aside) x = {T(x.low - view_.eye), T(x.high - view_.eye)};
+  if (view_.eyes > 1) x.low = x.low - view_.eyes_apart;
+  const Interval x_ratio = ratio_range(x, z), y_ratio = ratio_range(range_along(1), z);
   const Interval u = clamped(x_ratio, view_.limit_x), w = clamped(y_ratio, view_.limit_y);
 
   const T u_max = max_of(T(abs(u.low)), T(abs(u.high)));
@@ -189,10 +200,18 @@ typename GroupFrustumOf<T>::Compared GroupFrustumOf<T>::compared(
     padding_px = constant<T>(kRadiusSigmas) * T(0.7851F) + one + constant<T>(kTilePx);
   }
   const GroupSides<T>& to = from_middle_;
-  const bool outside = beyond_side(centre, half, 0, one, to.left, padding_px, reach_x, far_sum) ||
-                       beyond_side(centre, half, 0, -one, to.right, padding_px, reach_x, far_sum) ||
-                       beyond_side(centre, half, 1, one, to.top, padding_px, reach_y, far_sum) ||
-                       beyond_side(centre, half, 1, -one, to.bottom, padding_px, reach_y, far_sum);
+  const T zero = T(0.0F);
+  T of_left = zero, of_right = zero;
+  if (view_.aside) {
+    of_right = view_.focal_x * view_.eye;
+    of_left = -of_right;
+  }
+  if (view_.eyes > 1) of_right = of_right + view_.focal_x * view_.eyes_apart;
+  const bool outside =
+      beyond_side(centre, half, 0, one, to.left, padding_px, reach_x, far_sum, of_left) ||
+      beyond_side(centre, half, 0, -one, to.right, padding_px, reach_x, far_sum, of_right) ||
+      beyond_side(centre, half, 1, one, to.top, padding_px, reach_y, far_sum, zero) ||
+      beyond_side(centre, half, 1, -one, to.bottom, padding_px, reach_y, far_sum, zero);
   return {!outside, z, x_ratio, y_ratio, reach_x, reach_y, padding_px};
 }
 

@@ -37,6 +37,12 @@ struct Found {
   }
 };
 
+// A view, and that of a second eye where it has one.
+std::vector<View<float>> eyes_of(const View<float>& view) {
+  if (view.eyes < 2) return {view};
+  return {view, right_eye(view)};
+}
+
 bool could_blend(const View<float>& view, const Gaussian<float>& g, const PixelRect& group) {
   Splat splat{};
   return make_geometry(view, g, splat) && reaches_group(splat, group);
@@ -95,22 +101,28 @@ class Checker {
 
   Found look_at(std::uint32_t slot, const PixelRect& group) {
     const Gaussian<float>& g = cloud_.gaussians[slot];
-    const CoarseBound coarse =
-        coarse_bound(view_, g.mean, std::max({g.scale.x, g.scale.y, g.scale.z}));
     Found found;
-    if (!coarse.in_front) return found;
-    found.nearest = coarse.depth;
-    found.blended = could_blend(view_, g, group);
-    tally_.splats += found.blended ? 1 : 0;
-    if (found.blended && !touches(coarse, group)) tally_.failure = "coarse filter";
-    if (found.blended && !touches(stored_bound(view_, g), group)) {
-      tally_.failure = "coarse filter by extents";
+    std::vector<ReachedPixelsOf<float>> reached;
+    for (const View<float>& eye : eyes_) {
+      const CoarseBound coarse =
+          coarse_bound(eye, g.mean, std::max({g.scale.x, g.scale.y, g.scale.z}));
+      if (!coarse.in_front) continue;
+      if (&eye != &eyes_.front() && coarse.depth != found.nearest) {
+        tally_.failure = "depths of two eyes";
+      }
+      found.nearest = coarse.depth;
+      const ExtentBound bound = stored_bound(eye, g);
+      if (touches(bound, group)) reached.push_back(reached_pixels(bound, group));
+      if (!could_blend(eye, g, group)) continue;
+      found.blended = true;
+      ++tally_.splats;
+      if (!touches(coarse, group)) tally_.failure = "coarse filter";
+      if (!touches(bound, group)) tally_.failure = "coarse filter by extents";
+      find_subtiles(eye, g, group, found);
     }
-    if (!found.blended) return found;
-    find_subtiles(view_, g, group, found);
-    if (!found.within(group_reach(stored_bound(view_, g), group))) {
-      tally_.failure = "a Gaussian's reach";
-    }
+    if (!found.blended || !tally_.failure.empty()) return found;
+    const auto pixels = reached.size() > 1 ? of_both(reached[0], reached[1]) : reached[0];
+    if (!found.within(group_reach(pixels, group))) tally_.failure = "a Gaussian's reach";
     return found;
   }
 
@@ -129,6 +141,7 @@ class Checker {
   }
 
   const View<float>& view_;
+  const std::vector<View<float>> eyes_ = eyes_of(view_);
   const ActivatedCloud& cloud_;
   const ChunkTree& tree_;
   BoundTally& tally_;
@@ -155,12 +168,13 @@ void check_chunk_bounds(const HardScene& scene, std::uint32_t chunk, const Pixel
   }
 }
 
-void fuzz_chunk_bounds(unsigned first_seed, unsigned scenes) {
+void fuzz_chunk_bounds(unsigned first_seed, unsigned scenes, double most_apart) {
   BoundTally tally;
   for (unsigned seed = first_seed; seed < first_seed + scenes; ++seed) {
     HardScenes hard(seed);
     const int longest_px = hard.pick(50) == 0 ? 4000 : 100;
-    const HardScene scene = hard.next(1 + static_cast<std::size_t>(hard.pick(100)), longest_px);
+    HardScene scene = hard.next(1 + static_cast<std::size_t>(hard.pick(100)), longest_px);
+    if (most_apart > 0) scene.camera.eyes_apart = most_apart * std::exp(hard.uniform(-12, 0));
     const auto chunk = static_cast<std::uint32_t>(1 + hard.pick(16));
     check_chunk_bounds(scene, chunk,
                        longest_px > 100

@@ -24,8 +24,9 @@ bool holds(const ChunkBound& outer, const ChunkBound& inner);
 void check_chunk_bounds(const HardScene& scene, std::uint32_t chunk, const PixelSize& group_size,
                         BoundTally& tally);
 
-// Random hard scenes; prints how tight the test is.
-void fuzz_chunk_bounds(unsigned first_seed, unsigned scenes);
+// Random hard scenes; prints how tight the test is. most_apart: of the two eyes, world units; 0:
+// one.
+void fuzz_chunk_bounds(unsigned first_seed, unsigned scenes, double most_apart = 0);
 
 // Random Gaussians moved sideways until they only just reach a group: the least favourable place
 // for the test, which knows their exact bounds here. Returns how many there were.
