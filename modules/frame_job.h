@@ -42,11 +42,25 @@ struct FrameJob : Picture {
   RegionSpan spill;        // for data that the machine puts aside during the frame; may be empty
   RenamingPlace renaming;  // empty where the machine has no such table
   RegionSpan adjacency;    // for edges that its adjacency table has no room for; may be empty
-  std::vector<Picture> following;  // of the same size
+  // Two eyes: each frame has a picture for the left one and then one for the right one.
+  std::uint32_t eyes = 1;
+  std::vector<Picture> following;  // behind the first picture, of the same size
 
-  std::uint32_t frames() const { return static_cast<std::uint32_t>(1 + following.size()); }
-  const Picture& picture(std::uint32_t frame) const {
-    return frame == 0 ? *this : following[frame - 1];
+  std::uint32_t frames() const { return static_cast<std::uint32_t>(1 + following.size()) / eyes; }
+  const Picture& picture(std::uint32_t frame, std::uint32_t eye = 0) const {
+    const std::uint32_t at = frame * eyes + eye;
+    return at == 0 ? *this : following[at - 1];
+  }
+  // The job of one of the eyes, as if the other was not there.
+  FrameJob of_eye(std::uint32_t eye) const {
+    FrameJob out = *this;
+    out.eyes = 1;
+    out.following.clear();
+    for (std::uint32_t frame = 1; frame < frames(); ++frame) {
+      out.following.push_back(picture(frame, eye));
+    }
+    static_cast<Picture&>(out) = picture(0, eye);
+    return out;
   }
 };
 

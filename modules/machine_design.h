@@ -46,6 +46,9 @@ class MachineDesign {
   // something follows from them. Before resolve(); not at all where there is no picture.
   virtual void fit_frames(const std::function<std::vector<PixelSize>()>& frames) { (void)frames; }
 
+  // Builds it for frames of two eyes. Before resolve(). Throws InputError where it can not.
+  virtual void draw_two_eyes();
+
   // Fills in what the configuration left to the model, and adds it to `chosen`. Buffers are built
   // for any scene that is stored so. Throws InputError for what cannot be built; the message shows
   // the arithmetic.
@@ -64,9 +67,9 @@ class MachineDesign {
   // The same of frames back to back, all of one size: they take two frame buffers in turn.
   FrameJob stream(const StoredScene& scene, const std::vector<Camera>& cameras) const;
 
-  // The frame that the machine must render of this job. Whatever else its golden renderer knows
-  // belongs to this machine alone: published in `sheet`, by name, as operations that the frame left
-  // out.
+  // The frame that the machine must render of this job, the first of its frames. Whatever else its
+  // golden renderer knows belongs to this machine alone: published in `sheet`, by name, as
+  // operations that the frame left out.
   virtual GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
                              DataSheet& sheet) const = 0;
 
@@ -93,6 +96,13 @@ class MachineDesign {
 };
 
 inline void visit(ConfigVisitor& v, MachineDesign& design) { design.visit(v); }
+
+// Adds the frame buffer behind the regions that the job has; where its view is of the left one of
+// two eyes also the right one's picture, with a buffer of its own.
+void add_frame_buffers(FrameJob& job);
+
+// Throws InputError where a machine of so many eyes cannot draw what the camera sees.
+void check_eyes(std::uint32_t eyes, const Camera& camera);
 
 // A line of the factory.
 struct MachineKind {

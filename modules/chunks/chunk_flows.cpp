@@ -41,8 +41,8 @@ constexpr std::size_t kBesideTest = 1;  // word that goes along: which child of 
 
 }  // namespace
 
-ChunkCase longest_chunk_case() {
-  const FilterCase gaussian = longest_case();
+ChunkCase longest_chunk_case(std::uint32_t eyes) {
+  const FilterCase gaussian = longest_case(eyes);
   ChunkCase out;
   out.camera = gaussian.camera;
   out.group = gaussian.group;

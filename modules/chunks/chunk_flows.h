@@ -1,6 +1,8 @@
 // Operations of testing a chunk against a rectangle of pixels, recorded by running the test.
 #pragma once
 
+#include <cstdint>
+
 #include "algorithm/scene/camera.h"
 #include "algorithm/splat/rects.h"
 #include "algorithm/voxel/chunk_tree.h"
@@ -17,7 +19,8 @@ struct ChunkCase {
 
 // A chunk that touches its group: all four sides are looked at. A unit that starts a test at fixed
 // intervals has to be built for this.
-ChunkCase longest_chunk_case();
+// eyes: 2 for the view of two.
+ChunkCase longest_chunk_case(std::uint32_t eyes = 1);
 
 // Operations of one test, up to where it fails or to its end, with the walk's use of its result.
 // The child is decoded from its node: box bounds origin + q 2^e, extents by table. Values of the

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <vector>
 
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/extent_bound.h"
@@ -30,7 +31,7 @@ constexpr std::size_t kBesideFine = 2;    // storage slot, visit
 }  // namespace
 
 // No two values of the camera are equal and none is 0, so that no two operations coincide.
-FilterCase longest_case() {
+FilterCase longest_case(std::uint32_t eyes) {
   FilterCase out;
   out.camera.width = 256;
   out.camera.height = 192;
@@ -40,6 +41,7 @@ FilterCase longest_case() {
   const glm::dvec3 z = glm::normalize(glm::dvec3(0.3, -0.5, 0.8));
   const glm::dvec3 x = glm::normalize(glm::cross(z, glm::dvec3(0.2, 0.9, 0.1)));
   out.camera.world_from_camera = glm::dmat3(x, glm::cross(z, x), z);
+  if (eyes > 1) out.camera.eyes_apart = 0.06;
   // In the middle of the frame, some 20 px wide; the group begins 10 px farther right and below.
   const glm::dvec3 mean = out.camera.position + 4.0 * z;
   out.gaussian = {glm::vec3(mean), {0.3F, 0.25F, 0.35F}, {0.8F, 0.36F, 0.48F, 0}, 0.9F};
@@ -49,7 +51,8 @@ FilterCase longest_case() {
 
 FlowPart coarse_flow(CoarseBoundBy bound_by, const FilterCase& tested, std::uint32_t across) {
   const auto flow = std::make_shared<DataFlow>();
-  const auto view = make_view<Counting>(tested.camera);
+  std::vector<View<Counting>> eyes = {make_view<Counting>(tested.camera)};
+  if (eyes.front().eyes > 1) eyes.push_back(right_eye(eyes.front()));
   const auto mean = input(*flow, tested.gaussian.mean);
   const VisibleExtents known = visible_extents(tested.gaussian);
   // Recorded whatever it says.
@@ -65,12 +68,18 @@ FlowPart coarse_flow(CoarseBoundBy bound_by, const FilterCase& tested, std::uint
     }
   };
   if (bound_by == CoarseBoundBy::kLargestScale) {
-    run(coarse_bound(view, mean, input(*flow, known.scale_max)));
+    const Counting scale_max = input(*flow, known.scale_max);
+    for (const View<Counting>& view : eyes) run(coarse_bound(view, mean, scale_max));
   } else {
     const auto extent = input(*flow, known.extent);
-    const auto bound = extent_bound(view, mean, extent, input(*flow, known.scale_max));
-    run(bound);
-    if (bound.in_front) static_cast<void>(group_reach(bound, tested.group));
+    const Counting scale_max = input(*flow, known.scale_max);
+    std::vector<ReachedPixelsOf<Counting>> reached;
+    for (const View<Counting>& view : eyes) {
+      const auto bound = extent_bound(view, mean, extent, scale_max);
+      run(bound);
+      if (bound.in_front) reached.push_back(reached_pixels(bound, tested.group));
+    }
+    if (reached.size() > 1) static_cast<void>(of_both(reached[0], reached[1]));
   }
   keep(*flow, {mean.x, mean.y, mean.z});
   flow->pass_beside(kBesideCoarse);
@@ -84,7 +93,8 @@ void restore_largest(DataFlow& flow, std::array<Counting, 4>& quat) {
 
 FineFlow fine_flow(const FilterCase& tested, const FineRecord& record) {
   const auto flow = std::make_shared<DataFlow>();
-  const auto view = make_view<Counting>(tested.camera);
+  const auto left = make_view<Counting>(tested.camera);
+  const auto view = left.eyes > 1 ? right_eye(left) : left;
   Gaussian<Counting> gaussian = input(*flow, tested.gaussian);
   std::array<glm::vec<3, Counting>, 16> sh;
   for (auto& coefficient : sh) coefficient = input(*flow, glm::vec3(1.0F));

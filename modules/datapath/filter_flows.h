@@ -25,15 +25,16 @@ struct FilterCase {
 // A case that passes every test of both filters and takes the longest way: its centre lies off a
 // corner of the group, so that two edges are to be looked at. A unit that starts a test at fixed
 // intervals has to be built for this.
-FilterCase longest_case();
+// eyes: 2 for the left one of two.
+FilterCase longest_case(std::uint32_t eyes = 1);
 
 // Operations of the coarse test, up to where it fails or to its end: a bound, and whether it
 // touches the group, or each of across x across parts of it; with the values that a candidate
-// carries on.
+// carries on. Of two eyes, for each: what both compute alike is computed once.
 FlowPart coarse_flow(CoarseBoundBy bound_by, const FilterCase& tested, std::uint32_t across = 1);
 
 // Operations of the fine test, up to where it fails or to its end. An operation that two parts need
-// counts with the first.
+// counts with the first. Of two eyes those of the right one, which takes more.
 struct FineFlow {
   FlowPart all;
   FlowPart decode;      // the quaternion's largest component, where it is not stored

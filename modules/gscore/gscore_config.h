@@ -178,6 +178,7 @@ struct GscoreConfig {
   std::uint32_t lane_latency_cycles = 3, half_lane_latency_cycles = 2;
   FrameFormat framebuffer = FrameFormat::kRgb8;
   std::uint32_t ccus = 4, cores = 4;
+  std::uint32_t eyes = 1;
   TilesConfig tiles;
   SramConfig sram;
   CullingConfig culling;
@@ -217,6 +218,8 @@ inline void visit(ConfigVisitor& v, GscoreConfig& c) {
     "pixels in DRAM");
   v("ccus", c.ccus, in_range(1, 64), "culling and conversion units");
   v("cores", c.cores, in_range(1, 64), "with two QSUs, a BSU and 16 VRUs each");
+  v("eyes", c.eyes, in_range(1, 2),
+    "2, set by --stereo: Gaussians are fetched once and converted for both, with lists for each");
   v.section("tiles", c.tiles, "how Gaussians come to tiles");
   v.section("sram", c.sram, "on-chip memory");
   v.section("culling", c.culling, "what is culled ahead of the CCUs");

@@ -38,9 +38,9 @@ Datapath convert_of_degree(const GscoreConfig& config, int sh_degree) {
   const RecordSplit split =
       split_of(config.storage_order(), {SecondHalfEncoding::kRaw, sh_degree, {}});
   const FlowPart flow = convert_flow(config.tiles.rules(), split.fine_record(sh_degree),
-                                     config.tiles.features == NumberFormat::kHalf);
+                                     config.tiles.features == NumberFormat::kHalf, config.eyes);
   Datapath path = counted("convert", "ccu", flow, config.ccu.convert_lanes, config.single());
-  count_opacity(path, config);
+  count_opacity(path, config);  // both eyes have the same
   return path;
 }
 
@@ -63,23 +63,23 @@ std::uint64_t blend_interval(const GscoreConfig& config) {
 }  // namespace
 
 Datapath chunk_test_pipeline(const GscoreConfig& config) {
-  return counted("chunk_test", "culler", chunk_culling_flow(longest_chunk_case()),
+  return counted("chunk_test", "culler", chunk_culling_flow(longest_chunk_case(config.eyes)),
                  config.culling.test_lanes, config.single());
 }
 
 Datapath cull_pipeline(const GscoreConfig& config) {
-  return counted("cull", "ccu", cull_flow(), config.ccu.cull_lanes, config.single());
+  return counted("cull", "ccu", cull_flow(config.eyes), config.ccu.cull_lanes, config.single());
 }
 
 // Scheduling takes longest of all, and every CCU, the budget and the report ask.
 Datapath convert_pipeline(const GscoreConfig& config, int sh_degree) {
   using Key = std::tuple<StorageOrder, TileReach, TileTest, int, NumberFormat, std::uint32_t,
-                         std::uint32_t, int>;
+                         std::uint32_t, int, std::uint32_t>;
   static std::map<Key, Datapath> known;
   const TilesConfig& tiles = config.tiles;
   const Key key{config.storage_order(),     tiles.reach,    tiles.test,
                 tiles.subtiles_across,      tiles.features, config.ccu.convert_lanes,
-                config.lane_latency_cycles, sh_degree};
+                config.lane_latency_cycles, sh_degree,      config.eyes};
   if (const auto at = known.find(key); at != known.end()) return at->second;
   Datapath path = convert_of_degree(config, sh_degree);
   for (int degree = 0; degree <= kMostDegree; ++degree) {

@@ -17,7 +17,8 @@ namespace sgs::gscore {
 void GscoreDesign::fit_frames(const std::function<std::vector<PixelSize>()>& frames) {
   for (const PixelSize& frame : frames()) {
     const auto tiles = [](int px) { return (px + kTilePx - 1) / kTilePx; };
-    tiles_ = std::max(tiles_, static_cast<std::uint32_t>(tiles(frame.width) * tiles(frame.height)));
+    tiles_ = std::max(tiles_, config_.eyes * static_cast<std::uint32_t>(tiles(frame.width) *
+                                                                        tiles(frame.height)));
   }
 }
 
@@ -58,6 +59,7 @@ FrameJob GscoreDesign::job(const StoredScene& scene, const Camera& camera) const
         "culling.tree_levels: got {}, expected {} or more: the levels of the scene's chunk tree",
         config_.culling.tree_levels, scene.tree().depth));
   }
+  check_eyes(config_.eyes, camera);
   FrameJob job;
   job.view = make_view<float>(camera);
   job.layout = scene.image.layout;
@@ -71,15 +73,20 @@ GoldenFrame GscoreDesign::golden(const StoredScene& scene, const FrameJob& job,
   TileOrderConfig order = config_.order();
   order.background = job.background;
   const ChunkTree* boxes = config_.culls_chunks() ? &scene.tree() : nullptr;
-  TileResult result = render_tiles(job.view, scene.decoded, order, boxes);
-  const TileStats& stats = result.stats;
-  sheet.left_out("tiles_not_touched", "boxes along the ellipses", stats.tile_tests - stats.pairs,
-                 "entries of lists");
-  GoldenFrame golden;
-  golden.image = std::move(result.frame.image);
-  golden.blends = stats.contributors;
-  golden.contributing = stats.contributing;
-  golden.misordered = stats.misordered;
+  const auto of_eye = [&](std::uint32_t eye) {
+    TileResult result = render_tiles(job.picture(0, eye).view, scene.decoded, order, boxes);
+    const TileStats& stats = result.stats;
+    sheet.left_out("tiles_not_touched", "boxes along the ellipses", stats.tile_tests - stats.pairs,
+                   "entries of lists");
+    GoldenFrame golden;
+    golden.image = std::move(result.frame.image);
+    golden.blends = stats.contributors;
+    golden.contributing = stats.contributing;
+    golden.misordered = stats.misordered;
+    return golden;
+  };
+  GoldenFrame golden = of_eye(0);
+  if (job.eyes > 1) golden.add_right_eye(of_eye(1));
   TileOrderConfig exactly = TileOrderConfig::lossless();
   exactly.rules.test = order.rules.test;
   exactly.rules.subtiles_across = order.rules.subtiles_across;

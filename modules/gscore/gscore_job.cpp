@@ -8,6 +8,7 @@
 #include "algorithm/files/input_error.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/sorting/pivots.h"
+#include "modules/machine_design.h"
 
 namespace sgs::gscore {
 namespace {
@@ -47,8 +48,15 @@ void add_regions(const GscoreConfig& config, FrameJob& job) {
         "lists.pool_bytes: got {}, expected {} or more: one tile may list all {} Gaussians",
         config.lists.pool_bytes, least * blocks.block_bytes(), count));
   }
+  if (config.eyes > 1 && config.eyes * count > config.entries().records()) {
+    throw InputError(
+        fmt::format("eyes: got {} with {} Gaussians, expected at most {} projected for both: an "
+                    "entry of a list tells no more apart",
+                    config.eyes, count, config.entries().records()));
+  }
   Regions& regions = job.layout.regions;
-  regions.add_records(kProjected, kRecordPlaceBytes, config.lists.sets * count);
+  regions.add_records(kProjected, kRecordPlaceBytes,
+                      std::uint64_t{config.eyes} * config.lists.sets * count);
   regions.add(kTileLists, config.lists.sets * config.lists.pool_bytes);
   // A list is split once a level, into 8.
   const bool splits = count > config.sorting.list_entries;
@@ -56,21 +64,20 @@ void add_regions(const GscoreConfig& config, FrameJob& job) {
   regions.add(
       kSubsetLists,
       splits ? config.cores * most_levels(config.tiles.keys) * of_level * blocks.block_bytes() : 0);
-  job.frame_buffer = regions.add("frame_buffer", std::uint64_t{pixel_bytes(job.frame_format)} *
-                                                     job.view.width * job.view.height);
+  add_frame_buffers(job);
 }
 
 GscoreJob gscore_job(const GscoreConfig& config, const FrameJob& job) {
   GscoreJob out;
   out.sets = config.lists.sets;
   static_cast<FrameJob&>(out) = job;
-  out.columns = static_cast<std::uint32_t>(cycles_for(job.view.width, kTilePx));
+  out.columns = job.eyes * static_cast<std::uint32_t>(cycles_for(job.view.width, kTilePx));
   out.tile_count =
       out.columns * static_cast<std::uint32_t>(cycles_for(job.view.height, kTilePx)) * job.frames();
   const Regions& regions = job.layout.regions;
-  out.projected =
-      span_of(regions, kProjected)
-          .records(0, kRecordPlaceBytes, std::uint64_t{out.sets} * job.layout.gaussian_count());
+  out.projected = span_of(regions, kProjected)
+                      .records(0, kRecordPlaceBytes,
+                               std::uint64_t{job.eyes} * out.sets * job.layout.gaussian_count());
   out.lists = span_of(regions, kTileLists);
   out.subsets = span_of(regions, kSubsetLists);
   return out;

@@ -12,9 +12,9 @@
 
 namespace sgs::gscore {
 
-// Tiles are numbered frame after frame.
+// Tiles are numbered frame after frame; of two eyes as if their pictures lay side by side.
 struct GscoreJob : FrameJob {
-  std::uint32_t columns = 0, tile_count = 0;  // of a row; of all frames
+  std::uint32_t columns = 0, tile_count = 0;  // of a row, of all eyes; of all frames
   RecordArray projected;                      // places of records, of one set after the other
   RegionSpan lists;                           // a pool of blocks for each set
   RegionSpan subsets;                         // a stack of blocks for each core
@@ -22,13 +22,21 @@ struct GscoreJob : FrameJob {
 
   std::uint32_t tiles_of_frame() const { return tile_count / frames(); }
   std::uint32_t frame_of(std::uint32_t tile) const { return tile / tiles_of_frame(); }
+  const Picture& picture_of(std::uint32_t tile) const {
+    return picture(frame_of(tile), eye_of(tile));
+  }
   std::uint32_t first_tile(std::uint32_t frame) const { return frame * tiles_of_frame(); }
   PixelRect pixels(std::uint32_t tile) const {
     const int x = tile_x(tile) * kTilePx;
     const int y = tile_y(tile) * kTilePx;
     return {x, y, std::min(x + kTilePx, view.width), std::min(y + kTilePx, view.height)};
   }
-  int tile_x(std::uint32_t tile) const { return static_cast<int>(tile % columns); }
+  std::uint32_t columns_of_eye() const { return columns / eyes; }
+  std::uint32_t eye_of(std::uint32_t tile) const { return tile % columns / columns_of_eye(); }
+  // In the picture of its eye.
+  int tile_x(std::uint32_t tile) const {
+    return static_cast<int>(tile % columns % columns_of_eye());
+  }
   int tile_y(std::uint32_t tile) const {
     return static_cast<int>(tile % tiles_of_frame() / columns);
   }

@@ -40,16 +40,16 @@ SramUse times(SramUse use, std::uint32_t count) {
 }  // namespace
 
 SramUses queue_uses(const GscoreConfig& c) {
-  SramUses uses = {
-      times(fifo_use<Pass>(kPasses, kBuffer, 1, "passes"), pass_fifos(c)),
-      times(fifo_use<Converted>(kConverted, kBuffer, most_converted_entries(c), "Gaussians"),
-            c.ccus),
-      times(fifo_use<TileRequest>(kRequests, kBuffer, 1, "requests"), c.cores),
-      times(fifo_use<TileJob>(kJobs, kBuffer, 1, "jobs"), c.cores),
-      times(fifo_use<SortedEntry>(kSorted, kBuffer, c.rendering.sorted_entries, "entries",
-                                  SortedEntry::sram_bytes(c.entries())),
-            c.cores),
-      times(fifo_use<PassDone>(kDone, kBuffer, 1, "passes"), c.cores)};
+  SramUses uses = {times(fifo_use<Pass>(kPasses, kBuffer, 1, "passes"), pass_fifos(c)),
+                   times(fifo_use<Converted>(kConverted, kBuffer, most_converted_entries(c),
+                                             "Gaussians", Converted::sram_bytes(c.eyes)),
+                         c.ccus),
+                   times(fifo_use<TileRequest>(kRequests, kBuffer, 1, "requests"), c.cores),
+                   times(fifo_use<TileJob>(kJobs, kBuffer, 1, "jobs"), c.cores),
+                   times(fifo_use<SortedEntry>(kSorted, kBuffer, c.rendering.sorted_entries,
+                                               "entries", SortedEntry::sram_bytes(c.entries())),
+                         c.cores),
+                   times(fifo_use<PassDone>(kDone, kBuffer, 1, "passes"), c.cores)};
   if (c.culls_chunks()) {
     uses.push_back(
         times(fifo_use<VisibleSlice>(kVisible, kBuffer, kVisibleEntries, "slices"), c.ccus));

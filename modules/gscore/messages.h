@@ -53,12 +53,21 @@ struct Candidate {
 };
 
 // CCU -> lister: a Gaussian with its boxes, or the end of a slice whose last Gaussian has none.
-struct Converted {
-  static constexpr std::uint32_t kSramBytes = 108;  // record, key, tiles, parts, box, its limits
-  bool there = false, last = false;
-  bool end_of_pass = false;  // last of the last slice
+// Of two eyes this is what the left one sees of it.
+struct ConvertedForEye {
+  bool there = false;
   Splat splat{};
   TileBoxes boxes{};
+};
+struct Converted : ConvertedForEye {
+  // For each eye: record, key, tiles, parts, box, its limits.
+  static constexpr std::uint32_t kSramBytes = 108;
+  static std::uint32_t sram_bytes(std::uint32_t eyes) { return eyes * kSramBytes; }
+  bool last = false;
+  bool end_of_pass = false;  // last of the last slice
+  ConvertedForEye right;     // the right eye's, where there are two
+
+  bool any_there() const { return there || right.there; }
 };
 
 // Sorter -> lister: a tile is wanted.

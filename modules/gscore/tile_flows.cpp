@@ -28,8 +28,8 @@ void keep_box(DataFlow& flow, const TileBoxesOf<Counting>& b) {
 }
 
 // An ellipse that is long enough for a box along its axes: longest_case() with other scales.
-FilterCase longest_tile_case() {
-  FilterCase out = longest_case();
+FilterCase longest_tile_case(std::uint32_t eyes) {
+  FilterCase out = longest_case(eyes);
   out.gaussian.scale = {0.5F, 0.04F, 0.11F};
   return out;
 }
@@ -57,10 +57,10 @@ BoxLimits<Counting> wide_limits(DataFlow& flow) {
 
 }  // namespace
 
-FlowPart cull_flow() {
+FlowPart cull_flow(std::uint32_t eyes) {
   const auto recorded = std::make_shared<DataFlow>();
   DataFlow& flow = *recorded;
-  const FilterCase of = longest_case();
+  const FilterCase of = longest_case(eyes);
   const auto view = make_view<Counting>(of.camera);
   const auto mean = input(flow, of.gaussian.mean);
   const Counting scale = input(flow, 0.35F);
@@ -70,11 +70,38 @@ FlowPart cull_flow() {
   return whole(recorded);
 }
 
-FlowPart convert_flow(const TileRules& rules, const FineRecord& stored, bool half_records) {
+namespace {
+
+// What one eye sees of it. False where that is nothing.
+bool convert_for_eye(DataFlow& flow, const View<Counting>& view, const TileRules& rules,
+                     int sh_degree, const Gaussian<Counting>& g, const glm::vec<3, Counting>* sh,
+                     bool half_records) {
+  SplatOf<Counting> s{};
+  TileBoxesOf<Counting> boxes{};
+  if (!make_tile_geometry(view, g, rules, s, boxes)) return false;
+  add_colour(view, sh_degree, g.mean, sh, s);
+  keep(flow, {s.x, s.y});
+  keep_box(flow, boxes);
+  if (!half_records) {
+    keep(flow, {s.conic_a, s.conic_b, s.conic_c, s.opacity, s.rgb.x, s.rgb.y, s.rgb.z, s.depth});
+    return true;
+  }
+  const SquareConic<Counting> square = square_conic(s.conic_a, s.conic_b, s.conic_c);
+  const SquareConic<Counting> conic = in_units(square, axis_units(square));
+  for (const Counting& value :
+       {conic.a, conic.lean, conic.rest, s.opacity, s.rgb.x, s.rgb.y, s.rgb.z, s.depth}) {
+    keep(flow, {narrowed<CountingHalf>(value).counting()});
+  }
+  return true;
+}
+
+}  // namespace
+
+FlowPart convert_flow(const TileRules& rules, const FineRecord& stored, bool half_records,
+                      std::uint32_t eyes) {
   const auto recorded = std::make_shared<DataFlow>();
   DataFlow& flow = *recorded;
-  const FilterCase of = longest_tile_case();
-  const auto view = make_view<Counting>(of.camera);
+  const FilterCase of = longest_tile_case(eyes);
   Gaussian<Counting> g{};
   g.mean = input(flow, of.gaussian.mean);
   g.scale = input(flow, of.gaussian.scale);
@@ -85,22 +112,11 @@ FlowPart convert_flow(const TileRules& rules, const FineRecord& stored, bool hal
   flow.pass_beside(kBesideTileWork);
   if (stored.quaternion_words < g.quat.size()) restore_largest(flow, g.quat);
 
-  SplatOf<Counting> s{};
-  TileBoxesOf<Counting> boxes{};
-  if (!make_tile_geometry(view, g, rules, s, boxes)) return whole(recorded);
-  add_colour(view, stored.sh_degree, g.mean, sh.data(), s);
-  keep(flow, {s.x, s.y});
-  keep_box(flow, boxes);
-  if (!half_records) {
-    keep(flow, {s.conic_a, s.conic_b, s.conic_c, s.opacity, s.rgb.x, s.rgb.y, s.rgb.z, s.depth});
-    return whole(recorded);
-  }
-  const SquareConic<Counting> square = square_conic(s.conic_a, s.conic_b, s.conic_c);
-  const SquareConic<Counting> conic = in_units(square, axis_units(square));
-  for (const Counting& value :
-       {conic.a, conic.lean, conic.rest, s.opacity, s.rgb.x, s.rgb.y, s.rgb.z, s.depth}) {
-    keep(flow, {narrowed<CountingHalf>(value).counting()});
-  }
+  const auto left = make_view<Counting>(of.camera);
+  const auto convert = [&](const View<Counting>& view) {
+    return convert_for_eye(flow, view, rules, stored.sh_degree, g, sh.data(), half_records);
+  };
+  if (convert(left) && eyes > 1) convert(right_eye(left));
   return whole(recorded);
 }
 

@@ -8,13 +8,15 @@
 
 namespace sgs::gscore {
 
-// Operations that drop a Gaussian that cannot touch the frame, counted for one that may.
-FlowPart cull_flow();
+// Operations that drop a Gaussian that cannot touch the frame, counted for one that may; of two
+// eyes the frame of either.
+FlowPart cull_flow(std::uint32_t eyes = 1);
 
 // From a stored record to the screen, boxes, colour; with half_records rounded to the formats of
 // its projected record and key. Counts the longest way: a Gaussian whose box along its axes is
-// asked.
-FlowPart convert_flow(const TileRules& rules, const FineRecord& stored, bool half_records);
+// asked. Of two eyes for both: what they compute alike is computed once.
+FlowPart convert_flow(const TileRules& rules, const FineRecord& stored, bool half_records,
+                      std::uint32_t eyes = 1);
 
 // Tests so many neighbours in a row of tiles, and finds the next ones, by a box along the ellipse's
 // axes. The tester is the same where a Gaussian, or the machine, has no such box. Numbers for the

@@ -23,8 +23,9 @@ struct BuiltFor {
   std::vector<FineRecord> fine_records;                       // one of each SH degree
   std::uint32_t chunk_gaussians = 0;                          // exact order: most in one chunk
   NumberFormat splats = NumberFormat::kSingle;                // on their way through sorting
-  MemoryPortConfig memory_port;                               // port of each unit
-  OperationLatencies single, half{2, 1, 1};                   // lanes of each precision
+  std::uint32_t eyes = 1;
+  MemoryPortConfig memory_port;              // port of each unit
+  OperationLatencies single, half{2, 1, 1};  // lanes of each precision
 };
 
 // The on-chip memories.

@@ -29,12 +29,9 @@ ExactFifos::ExactFifos(const ExactConfig& c)
                c.merge.output_fifo_entries,
                1,
                "merge.output_fifo_entries"},
-      splats{"splats to rendering",
-             "splats",
-             c.hfus,
-             c.rendering.input_fifo_entries,
-             c.hfu.ffu_depth_cycles,
-             "rendering.input_fifo_entries"} {}
+      splats{"splats to rendering",  "splats",
+             c.hfus * c.hfu.eyes,    c.rendering.input_fifo_entries,
+             c.hfu.ffu_depth_cycles, "rendering.input_fifo_entries"} {}
 
 SramUses sram_uses(const ExactConfig& c, const StorageConfig& storage) {
   const BuiltFor made = built_for(c, storage);

@@ -39,6 +39,8 @@ struct ExactConfig : StreamingConfig {
 
 inline void visit(ConfigVisitor& v, ExactConfig& c) {
   visit_head(v, c);
+  v("eyes", c.hfu.eyes, in_range(1, 2),
+    "2, set by --stereo: each has its own FFUs, rendering unit and pixels; all else serves both");
   v.section("vsu", c.vsu, "voxel sorting unit");
   v.section("sorting", c.sorting, "network of each sorting unit");
   v.section("merge", c.merge, "merge unit");

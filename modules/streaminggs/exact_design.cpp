@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "algorithm/files/input_error.h"
 #include "modules/streaminggs/exact_machine.h"
 #include "modules/streaminggs/pipeline_depths.h"
 #include "modules/streaminggs/streaming_design.h"
@@ -13,6 +14,11 @@ namespace sgs {
 
 void ExactDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) {
   storage_ = storage;
+  if (config_.hfu.eyes > 1 && config_.merge.on_overflow == OnOverflow::kBlendEarly) {
+    throw InputError(
+        "merge.on_overflow: got blend_early with eyes 2, expected spill: what waits for one eye "
+        "would decide the picture of the other");
+  }
   resolve_rendering_depths(config_, chosen);
   resolve_sram(
       config_, storage_, sram_, [&] { return sram_uses(config_, storage_); }, chosen);
@@ -22,14 +28,16 @@ void ExactDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>&
   sgs::adapt(config_, storage_order(), format, chosen);
   const OperationLatencies latencies = config_.single_latencies();
   resolve_depth("vsu.test_depth_cycles", config_.vsu.test_depth_cycles,
-                chunk_test_pipeline(config_.vsu, latencies),
-                chunk_flow(longest_chunk_case()).longest_path(latencies), latencies, 0, chosen);
+                chunk_test_pipeline(config_.vsu, config_.hfu.eyes, latencies),
+                chunk_flow(longest_chunk_case(config_.hfu.eyes)).longest_path(latencies), latencies,
+                0, chosen);
 }
 
 FrameJob ExactDesign::job(const StoredScene& scene, const Camera& camera) const {
+  check_eyes(config_.hfu.eyes, camera);
   FrameJob job = scene_job(config_, scene, camera);
   add_spill(job, exact_spill_bytes(scene.image.layout));  // by the scene alone
-  add_frame_buffer(job);
+  add_frame_buffers(job);
   return job;
 }
 
@@ -65,7 +73,13 @@ GoldenFrame ExactDesign::golden(const StoredScene& scene, const FrameJob& job,
   order.background = job.background;
   StreamingResult result = render_exact_order(job.view, scene.decoded, scene.tree(), order);
   publish_left_out(scene, result.stats, sheet);
-  GoldenFrame golden = golden_frame(std::move(result), streaming_job(config_, job).groups);
+  const std::vector<PixelRect> groups = streaming_job(config_, job).groups;
+  GoldenFrame golden = golden_frame(std::move(result), groups);
+  if (job.eyes > 1) {
+    const View<float>& right = job.picture(0, 1).view;
+    golden.add_right_eye(
+        golden_frame(render_exact_order(right, scene.decoded, scene.tree(), order), groups));
+  }
   if (config_.rendering.precision == BlendPrecision::kSingle) return golden;
   order.precision = BlendPrecision::kSingle;
   golden.computed_exactly = [&scene, view = job.view, exactly = order] {

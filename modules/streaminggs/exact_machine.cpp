@@ -30,9 +30,12 @@ ExactMachine::ExactMachine(const sc_core::sc_module_name& name, const ExactConfi
                        {Rejects::kReported, Arrival::kByToken}),
       vsu_("vsu", config.vsu, context(), job.spill.part(0, aside_bytes(job.layout))),
       merge_("merge", config.merge, behind_aside(job), context()),
-      finished_subtiles_("finished_subtiles", clock(), job.groups,
-                         config.rendering.feedback_latency_cycles),
       untold_("untold_subtiles", clock(), job.groups, config.rendering.feedback_latency_cycles) {
+  for (std::uint32_t eye = 0; eye < config.hfu.eyes; ++eye) {
+    finished_subtiles_.push_back(
+        std::make_unique<FinishedSubtiles>(fmt::format("finished_subtiles{}", eye).c_str(), clock(),
+                                           job.groups, config.rendering.feedback_latency_cycles));
+  }
   add_fifos(config);
   make_sorters(config);
   bind(config.merge.on_overflow);
@@ -46,7 +49,10 @@ void ExactMachine::add_fifos(const ExactConfig& config) {
       add_fifo(keys_, fmt::format("keys_hfu{}_to_sorting{}", h, s), kinds.keys);
     }
     add_fifo(released_, fmt::format("released_to_hfu{}", h), kinds.released);
-    add_fifo(splats_, fmt::format("splats_of_hfu{}", h), kinds.splats);
+    for (std::uint32_t eye = 0; eye < config.hfu.eyes; ++eye) {
+      const std::string of_eye = config.hfu.eyes > 1 ? fmt::format("_eye{}", eye) : "";
+      add_fifo(splats_, fmt::format("splats_of_hfu{}{}", h, of_eye), kinds.splats);
+    }
   }
   for (std::uint32_t s = 0; s < config.sorting_units; ++s) {
     add_fifo(sorted_keys_, fmt::format("keys_sorted_by_sorting{}", s), kinds.sorted_keys);
@@ -62,11 +68,13 @@ void ExactMachine::make_sorters(const ExactConfig& config) {
 
 void ExactMachine::bind(OnOverflow on_overflow) {
   vsu_.host(host);
-  vsu_.finished(*finished_groups_[0]);
-  merge_.finished(*finished_groups_[0]);
-  vsu_.mask(on_overflow == OnOverflow::kSpill ? finished_subtiles_ : untold_);
-  merge_.mask(finished_subtiles_);
-  rendering_[0]->finish_subtile(finished_subtiles_);
+  for (std::size_t eye = 0; eye < rendering_.size(); ++eye) {
+    vsu_.finished(*finished_groups_[eye]);
+    merge_.finished(*finished_groups_[eye]);
+    vsu_.masks(on_overflow == OnOverflow::kSpill ? *finished_subtiles_[eye] : untold_);
+    merge_.masks(*finished_subtiles_[eye]);
+    rendering_[eye]->finish_subtile(*finished_subtiles_[eye]);
+  }
   for (std::size_t h = 0; h < hfus_.size(); ++h) {
     vsu_.visits(*visits_[h]);
     for (std::size_t s = 0; s < sorters_.size(); ++s) {
@@ -76,8 +84,10 @@ void ExactMachine::bind(OnOverflow on_overflow) {
     }
     merge_.released(*released_[h]);
     hfus_[h]->fine.candidates(*released_[h]);
-    hfus_[h]->fine.splats(*splats_[h]);
-    rendering_[0]->splats(*splats_[h]);
+    for (std::size_t eye = 0; eye < rendering_.size(); ++eye) {
+      hfus_[h]->fine.splats(*splats_[h * rendering_.size() + eye]);
+      rendering_[eye]->splats(*splats_[h * rendering_.size() + eye]);
+    }
   }
   for (std::size_t s = 0; s < sorters_.size(); ++s) {
     sorters_[s]->sorted(*sorted_keys_[s]);
@@ -94,7 +104,7 @@ void ExactMachine::publish_units(DataSheet& sheet) {
   publish_spare(sheet, "spare_sorting_units", "sorting_units", sorters_.size(),
                 units_fed(sorters_, sorts), 1);
   merge_.publish(sheet);
-  rendering_[0]->publish(sheet);
+  for (const auto& rendering : rendering_) rendering->publish(sheet);
 }
 
 }  // namespace sgs

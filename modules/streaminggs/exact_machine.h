@@ -24,11 +24,11 @@ class ExactMachine : public StreamingMachine {
   Fifos<FineCandidate> keys_;         // [HFU, sorting unit]
   Fifos<FineCandidate> sorted_keys_;  // [sorting unit]
   Fifos<FineCandidate> released_;     // [HFU]
-  Fifos<SplatToken> splats_;          // [HFU]
+  Fifos<SplatToken> splats_;          // [HFU, eye]
   ExactVsu vsu_;
   std::vector<std::unique_ptr<ExactSorter>> sorters_;
   MergeUnit merge_;
-  FinishedSubtiles finished_subtiles_;
+  std::vector<std::unique_ptr<FinishedSubtiles>> finished_subtiles_;  // [eye]
   FinishedSubtiles untold_;  // for VSU with blend_early: there what waits decides the picture
 };
 

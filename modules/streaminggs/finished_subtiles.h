@@ -88,9 +88,25 @@ class FinishedSubtiles : public sc_core::sc_prim_channel,
   std::uint64_t news_ = 0;
 };
 
-using FinishedSubtilesIn = sc_core::sc_port<FinishedSubtilesIf>;
+// One an eye.
+using FinishedSubtilesIns = sc_core::sc_port<FinishedSubtilesIf, 0>;
 // Not bound where nobody asks.
 using FinishSubtileOut = sc_core::sc_port<FinishSubtileIf, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
+
+// The eyes for which some sub-tile of `reach` is not known to be finished, a bit each.
+inline std::uint32_t unfinished_eyes(FinishedSubtilesIns& masks, std::uint32_t group,
+                                     const GroupReach& reach) {
+  std::uint32_t eyes = 0;
+  for (int e = 0; e < masks.size(); ++e) {
+    eyes |= masks[e]->any_unfinished(group, reach) ? 1U << e : 0U;
+  }
+  return eyes;
+}
+inline std::uint64_t news(FinishedSubtilesIns& masks) {
+  std::uint64_t sum = 0;
+  for (int e = 0; e < masks.size(); ++e) sum += masks[e]->news();
+  return sum;
+}
 
 // A bit a sub-tile, in registers: all are read at once, and cleared; each cluster may finish one in
 // a cycle. Each unit that asks keeps its own.

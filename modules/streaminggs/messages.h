@@ -39,13 +39,13 @@ struct FineCandidate {
   CarriedWords carried{};    // words of the first half that the second half needs
   std::uint64_t ticket = 0;  // read of the second half
   std::uint32_t buffer = 0;  // where it lands
-  std::uint32_t parts = 1;   // parts of the group that it may touch, a bit each
+  std::uint32_t parts = 1;   // parts of the group, or eyes, that it may touch, a bit each
   GroupReach reach{};        // in exact order, while it is a key (kKeyBytes)
   Mark mark = Mark::kNone;   // with a mark there is no Gaussian
 };
 
 // A candidate that is sorted and merged as a key of exact order: with the sub-tiles that it may
-// reach.
+// reach, in either eye. Eyes are told in the top bits of the slot's word.
 constexpr std::uint32_t kKeyBytes = FineCandidate::kSramBytes + sizeof(GroupReach);
 
 // HFU -> sorting -> rendering.

@@ -81,7 +81,7 @@ void PaperDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>&
 
 FrameJob PaperDesign::job(const StoredScene& scene, const Camera& camera) const {
   FrameJob job = scene_job(config_, scene, camera);
-  add_frame_buffer(job);
+  add_frame_buffers(job);
   add_spill(job, spill_bytes(config_, scene.grid()));  // by the buffers
   if (config_.vsu.samples()) SampledRays::place_tables(config_.vsu, scene.grid(), job);
   return job;

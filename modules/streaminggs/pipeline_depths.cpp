@@ -93,12 +93,13 @@ void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& 
 void resolve_filter_depths(StreamingConfig& config, const RecordSplit& split, int sh_degree,
                            std::vector<AutoChoice>& chosen) {
   const OperationLatencies single = config.single_latencies();
-  const auto across = static_cast<std::uint32_t>(std::lround(std::sqrt(config.parts())));
+  const auto across = static_cast<std::uint32_t>(std::lround(std::sqrt(config.parts_of_group())));
   if (has_cfus(config.hfu, split.bound_by)) {
-    resolve_depth("hfu.cfu_depth_cycles", config.hfu.cfu_depth_cycles,
-                  coarse_pipeline(config.hfu, split.bound_by, config.parts(), single),
-                  coarse_flow(split.bound_by, longest_case(), across).longest_path(single), single,
-                  kReadCycles, chosen);
+    resolve_depth(
+        "hfu.cfu_depth_cycles", config.hfu.cfu_depth_cycles,
+        coarse_pipeline(config.hfu, split.bound_by, config.parts_of_group(), single),
+        coarse_flow(split.bound_by, longest_case(config.hfu.eyes), across).longest_path(single),
+        single, kReadCycles, chosen);
   } else if (config.hfu.cfu_depth_cycles > 0) {
     throw InputError(fmt::format(
         "hfu.cfu_depth_cycles: got {} with hfu.coarse_filter=false, which has no CFUs, expected 0",
@@ -111,7 +112,8 @@ void resolve_filter_depths(StreamingConfig& config, const RecordSplit& split, in
                                      : rounding_pipeline(config.hfu, single).depth_cycles;
   resolve_depth("hfu.ffu_depth_cycles", config.hfu.ffu_depth_cycles,
                 fine_pipeline(config.hfu, split.fine_record(sh_degree), single),
-                fine_flow(longest_case(), split.fine_record(sh_degree)).all.longest_path(single),
+                fine_flow(longest_case(config.hfu.eyes), split.fine_record(sh_degree))
+                    .all.longest_path(single),
                 single, FineFilter::read_cycles(split.second_bytes) + rounding, chosen);
 }
 

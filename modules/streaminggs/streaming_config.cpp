@@ -14,7 +14,7 @@ namespace sgs {
 
 // Each part of a group has its share of everything behind the fetch.
 void check_parts(const StreamingConfig& c) {
-  const std::uint32_t parts = c.parts();
+  const std::uint32_t parts = c.parts_of_group();
   if (parts_across(parts) == 0 || parts > kMostParts) {
     throw InputError(
         fmt::format("hfus: got {} with fetch shared, expected a square number up to {}: each has "
@@ -47,6 +47,7 @@ BuiltFor built_for(const StreamingConfig& config, const StorageConfig& storage) 
   }
   out.chunk_gaussians = storage.chunk_gaussians;
   out.splats = config.splats;
+  out.eyes = config.hfu.eyes;
   out.memory_port = config.memory_port;
   out.single = config.single_latencies();
   out.half = config.half_latencies();
@@ -55,27 +56,29 @@ BuiltFor built_for(const StreamingConfig& config, const StorageConfig& storage) 
 
 RenderingConfig rendering_of_part(const StreamingConfig& c) {
   RenderingConfig part = c.rendering;
-  part.clusters /= c.parts();
-  part.begin_lanes /= c.parts();
-  part.span_lanes /= c.parts();
-  part.span_slots = (part.span_slots + c.parts() - 1) / c.parts();
-  part.drain_pixels_per_cycle /= c.parts();
+  part.clusters /= c.parts_of_group();
+  part.begin_lanes /= c.parts_of_group();
+  part.span_lanes /= c.parts_of_group();
+  part.span_slots = (part.span_slots + c.parts_of_group() - 1) / c.parts_of_group();
+  part.drain_pixels_per_cycle /= c.parts_of_group();
   return part;
 }
 
 BuiltFor built_for_part(const StreamingConfig& c, BuiltFor built_for) {
-  built_for.group = part_size(built_for.group, c.parts());
+  built_for.group = part_size(built_for.group, c.parts_of_group());
   return built_for;
 }
 
 void check(const StreamingConfig& c, const StorageConfig& storage) {
   for (const auto& [key, px] :
        {std::pair{"group_width_px", c.group_width_px}, {"group_height_px", c.group_height_px}}) {
-    const std::uint32_t step = group_step_px(c.parts());
+    const std::uint32_t step = group_step_px(c.parts_of_group());
     if (px > 0 && px % step == 0) continue;
     throw InputError(fmt::format(
         "{}: got {}, expected a multiple of {}{}", key, px, step,
-        c.parts() == 1 ? "" : fmt::format(": each of {} HFUs has its part of a group", c.parts())));
+        c.parts_of_group() == 1
+            ? ""
+            : fmt::format(": each of {} HFUs has its part of a group", c.parts_of_group())));
   }
   check(c.rendering);
   const std::uint32_t record_bytes = built_for(c, storage).first_half_bytes;

@@ -67,8 +67,10 @@ struct StreamingConfig {
     group_height_px = static_cast<std::uint32_t>(group.height);
   }
   // HFUs behind one fetch, each with its part of a group; and how many fetches there are.
-  std::uint32_t parts() const { return fetch == Fetch::kShared ? hfus : 1; }
-  std::uint32_t fetches() const { return hfus / parts(); }
+  std::uint32_t parts_of_group() const { return fetch == Fetch::kShared ? hfus : 1; }
+  std::uint32_t fetches() const { return hfus / parts_of_group(); }
+  // The parts of both eyes, where there are two: each has FFUs and a rendering unit of its own.
+  std::uint32_t parts() const { return parts_of_group() * hfu.eyes; }
 };
 
 // The keys that stand before and behind those of the order's own units.

@@ -39,7 +39,10 @@ StreamingJob streaming_job(const StreamingConfig& config, const FrameJob& job) {
   for (std::uint32_t frame = 0; frame < job.frames(); ++frame) {
     out.groups.insert(out.groups.end(), of_frame.begin(), of_frame.end());
   }
-  out.parts = group_parts(out.groups, config.group(), config.parts());
+  const auto parts = group_parts(out.groups, config.group(), config.parts_of_group());
+  for (std::uint32_t eye = 0; eye < job.eyes; ++eye) {
+    out.parts.insert(out.parts.end(), parts.begin(), parts.end());
+  }
   return out;
 }
 
@@ -53,11 +56,6 @@ FrameJob scene_job(const StreamingConfig& config, const StoredScene& scene, cons
 
 void add_spill(FrameJob& job, std::uint64_t bytes) {
   job.spill = job.layout.regions.add("spill", bytes);
-}
-
-void add_frame_buffer(FrameJob& job) {
-  const auto pixels = static_cast<std::uint64_t>(job.view.width) * job.view.height;
-  job.frame_buffer = job.layout.regions.add("frame_buffer", pixel_bytes(job.frame_format) * pixels);
 }
 
 GoldenFrame golden_frame(StreamingResult&& result, const std::vector<PixelRect>& groups) {

@@ -20,10 +20,9 @@ void adapt(StreamingConfig& config, StorageOrder order, const SecondHalfFormat& 
 // A frame of the scene, without regions of the machine's own.
 FrameJob scene_job(const StreamingConfig& config, const StoredScene& scene, const Camera& camera);
 
-// Adds regions behind those that the job has. Add those that depend on the configuration last: a
+// Adds a region behind those that the job has. Add those that depend on the configuration last: a
 // machine of other parameters then finds everything else where it was.
 void add_spill(FrameJob& job, std::uint64_t bytes);
-void add_frame_buffer(FrameJob& job);
 
 // The job of a streaming machine from a FrameJob: adds its groups.
 StreamingJob streaming_job(const StreamingConfig& config, const FrameJob& job);

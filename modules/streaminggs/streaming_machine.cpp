@@ -12,9 +12,10 @@
 namespace sgs {
 namespace {
 
-// The job of what renders one part of the groups: its pixels in place of theirs.
+// The job of what renders one part of the groups: its pixels in place of theirs, of its eye.
 StreamingJob job_of_part(const StreamingJob& job, std::uint32_t part) {
   StreamingJob out = job;
+  static_cast<FrameJob&>(out) = job.of_eye(job.eye_of(part));
   out.groups = job.parts[part];
   out.parts = {out.groups};
   return out;
@@ -74,8 +75,9 @@ void StreamingMachine::make_units(const Tokens& tokens) {
                                                          part_context(p), part_drawn));
   }
   if (job_.layout.second_half.quantised()) {
-    codebooks_ = std::make_unique<CodebookBuffer>("codebooks", config_.codebook, context(),
-                                                  instant_end(), config_.hfus);
+    codebooks_ =
+        std::make_unique<CodebookBuffer>("codebooks", config_.codebook, context(), instant_end(),
+                                         config_.fetches() * config_.parts());
   }
 }
 
@@ -111,7 +113,7 @@ void StreamingMachine::publish(DataSheet& sheet) {
 
 // Parts of a group that share a fetch have their units for themselves, fed or not.
 void StreamingMachine::publish_spare_units(DataSheet& sheet) {
-  if (config_.parts() > 1) return;
+  if (config_.parts_of_group() > 1) return;
   publish_spare(sheet, "spare_hfus", "hfus", config_.hfus,
                 units_fed(hfus_,
                           [](const Hfu& hfu) {

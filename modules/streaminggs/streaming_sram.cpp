@@ -20,7 +20,7 @@ void choose_group(StreamingConfig& config, std::vector<PixelSize> frames,
                   const std::function<SramUses()>& uses, std::vector<AutoChoice>& chosen) {
   constexpr PixelSize kAnyFrame = square_of(65536);  // so wide that groups need not divide it
   if (frames.empty()) frames.push_back(kAnyFrame);
-  const auto step = static_cast<int>(group_step_px(config.parts()));
+  const auto step = static_cast<int>(group_step_px(config.parts_of_group()));
   const auto needed = [&](const PixelSize& group) {
     config.set_group(group);
     return sram_bytes(uses(), kSharedSram);

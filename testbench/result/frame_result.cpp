@@ -115,8 +115,8 @@ void serialize(Archive& a, StreamResult& r) {
 }
 template <class Archive>
 void serialize(Archive& a, FrameResult& r) {
-  a(r.cycles, r.rest_cycles, r.clock_mhz, r.drained, r.machine, r.memory, r.frame, r.stream,
-    r.wall_s);
+  a(r.cycles, r.rest_cycles, r.clock_mhz, r.drained, r.machine, r.memory, r.frame, r.right_frame,
+    r.stream, r.wall_s);
 }
 
 double MemoryResult::time_in_s(const std::string& state) const {

@@ -164,9 +164,10 @@ struct FrameResult {
   bool drained = false;  // FIFOs empty, nothing in flight
   MachineResult machine;
   MemoryResult memory;
-  std::vector<std::byte> frame;  // the frame buffer as read back from the memory
-  StreamResult stream;           // of frames back to back: then all else is of all of them
-  double wall_s = 0;             // elaboration, loading of the memory, simulation
+  std::vector<std::byte> frame;        // the frame buffer as read back from the memory
+  std::vector<std::byte> right_frame;  // the right eye's, where there are two
+  StreamResult stream;                 // of frames back to back: then all else is of all of them
+  double wall_s = 0;                   // elaboration, loading of the memory, simulation
 
   double time_s() const { return static_cast<double>(cycles) / (clock_mhz * 1e6); }
 };

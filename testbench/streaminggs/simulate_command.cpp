@@ -17,6 +17,7 @@
 #include "algorithm/files/input_json.h"
 #include "algorithm/files/output_file.h"
 #include "algorithm/render/group_state.h"
+#include "algorithm/scene/gaussian_cloud.h"
 #include "modules/dram/memspec.h"
 #include "testbench/command_line/config_source.h"
 #include "testbench/streaminggs/commands.h"
@@ -44,6 +45,7 @@ struct SimulateArguments : SceneArguments {
   std::string path;                     // the camera's path; empty: views
   std::optional<std::uint32_t> frames;  // along it
   bool stream = false;                  // the path's frames back to back
+  std::string stereo;                   // "ipd=DISTANCE"; empty: one eye
   bool print_config = false;
   bool verbose = false;
   std::string command;  // the whole command line
@@ -97,6 +99,24 @@ void check_groups(const std::string& text, const GroupRange& range, const Machin
   if (range.last < count) return;
   throw InputError(fmt::format("--timeline-groups: got '{}', the frame has {}: expected 0 to {}",
                                text, count, count - 1));
+}
+
+// Distance of the eyes, world units; 0: there is one.
+double eyes_apart(const std::string& stereo) {
+  if (stereo.empty()) return 0;
+  const std::string key = "ipd=";
+  double distance = 0;
+  const char* const end = stereo.data() + stereo.size();
+  const bool named = stereo.rfind(key, 0) == 0;
+  const auto read = std::from_chars(stereo.data() + (named ? key.size() : 0), end, distance);
+  if (!named || read.ec != std::errc() || read.ptr != end || !(distance > 0) ||
+      distance > kMaxCoordinate) {
+    throw InputError(fmt::format(
+        "--stereo: got '{}', expected ipd=DISTANCE of the eyes in world units, above 0 and at most "
+        "{}: their axes are parallel",
+        stereo, kMaxCoordinate));
+  }
+  return distance;
 }
 
 // One file each of one simulation.
@@ -203,6 +223,8 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   config = read_run_config(arguments.config, kinds);
   std::optional<PackedScene> packed = arguments.load_packed();
   check_cameras_of_path(arguments, config.storage.encoding, packed.has_value());
+  const double apart = eyes_apart(arguments.stereo);
+  if (apart > 0) config.design->draw_two_eyes();
   std::vector<Camera> keys;
   std::optional<PathJob> path;
   if (!arguments.path.empty()) path = path_job(arguments, keys);
@@ -227,6 +249,7 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
     RunConfig shown = source.fit_memories ? as_decided(source.document(), config)
                                           : read_run_config(source.document(), kinds);
     if (packed) shown.storage = packed->storage;
+    if (apart > 0) shown.design->draw_two_eyes();
     fmt::print("{}\n", to_json(shown));
     return 0;
   }
@@ -247,6 +270,8 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   if (!packed) scene = arguments.load();
   NumberedCameras views;
   if (!path) views = arguments.cameras(scene.cameras);
+  for (auto& [number, camera] : views) camera.eyes_apart = apart;
+  for (std::size_t i = 0; path && i < path->frames.size(); ++i) path->frames[i].eyes_apart = apart;
   if (!views.empty()) {
     check_groups(arguments.timeline_groups, setting.options.timeline_groups, *config.design,
                  views.front().second);
@@ -306,6 +331,10 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
       "the path's frames back to back in one simulation, shown at --frame-rate; as fast as it "
       "goes with 0, or none");
   line.needs("--stream", "--path");
+  line.text("--stereo", arguments->stereo,
+            "a second eye beside each camera, as ipd=0.064 to its right in world units, with "
+            "parallel axes: a frame is two pictures");
+  line.excludes("--stereo", "--stream");
   line.excludes("--view", "--path");
   line.needs("--frames", "--path");
   line.file("--technology", arguments->technology, "table of energy and area");

@@ -150,7 +150,7 @@ MergeRun::MergeRun(Case& test, const BenchConfig& config, const MergePlan& plan)
   for (TimedFifo<FineCandidate>* input : inputs) unit.sorted(*input);
   for (TimedFifo<FineCandidate>* output : outputs) unit.released(*output);
   unit.finished(finished.channel);
-  unit.mask(mask);
+  unit.masks(mask);
   bench.add_unit(unit);
 }
 

@@ -163,7 +163,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const ExactVsuPlan& p
   ExactVsu unit("vsu", plan.config, context, plan.job.spill);
   for (TimedFifo<VisitShare>* fifo : visits) unit.visits(*fifo);
   unit.finished(finished.channel);
-  unit.mask(mask);
+  unit.masks(mask);
   bench.add_unit(unit);
   std::vector<VisitShare> received;
   std::vector<std::uint64_t> cycles;  // in which they came

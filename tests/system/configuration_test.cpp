@@ -415,7 +415,7 @@ TEST_CASE("configuration: what describe lists of report.json is what reports hol
                        "stated_area_mm2=5", "--frame-rate", "90"}),
         Arguments{scratch.path("scene.ply"), "--cameras", scratch.path("cameras.json"), "--size",
                   "64x36", "--scene-axes", "rub"},
-        joined(scene, {"--config", "gscore"}),
+        joined(scene, {"--config", "gscore", "--stereo", "ipd=0.1"}),
         Arguments{packed, "--cameras", scratch.path("cameras.json"), "--size", "64x36"}}) {
     REQUIRE(
         run_streaminggs(joined(joined({"simulate"}, run), {"--out", scratch.path("out")})).status ==

@@ -154,6 +154,26 @@ TEST_CASE("refusals: keys, types, ranges and combinations") {
   check_set_refused("no_such_preset", {}, {"no_such_preset"});
 }
 
+TEST_CASE("refusals: two eyes where there is one, and axes that are not parallel") {
+  const Arguments stereo = {"simulate", "builtin:object?n=100", "--size", "16x16", "--stereo"};
+  const auto check = [&](const Arguments& more, const std::vector<std::string>& words) {
+    Arguments arguments = stereo;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    check_not_started(arguments, words);
+  };
+  check({"ipd=0.06", "--config", "paper"}, {"--stereo", "one picture a frame", "exact or gscore"});
+  check({"ipd=0.06", "--set", "merge.on_overflow=blend_early"}, {"blend_early with eyes 2"});
+  for (const char* text :
+       {"0.06", "ipd=", "ipd=x", "ipd=0", "ipd=-1", "ipd=1e30", "ipd=nan", "ipd=0.06,vergence=2"}) {
+    check({text}, {"--stereo: got '" + std::string(text) + "'", "ipd=DISTANCE", "parallel"});
+  }
+  for (const char* machine : {"exact", "gscore"}) {
+    Arguments keys = {"eyes=2"};
+    if (std::string(machine) == "exact") keys.emplace_back("sram.shared_bytes=0");
+    check_set_refused(machine, keys, {"eyes: got 2, expected 1", "--stereo"});
+  }
+}
+
 TEST_CASE("refusals: voxels so small that the grid has no numbers for them") {
   check_set_refused("paper", {"storage.voxel_size=0.0000001"},
                     {"streaminggs: --set storage.voxel_size=0.0000001: storage.voxel_size: 1e-07 "

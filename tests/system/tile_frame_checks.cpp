@@ -33,7 +33,9 @@ void check_bytes(const Json& view) {
     CHECK(region_bytes(view, "tile_lists", "write") >= entry * pairs);
     CHECK(region_bytes(view, "tile_lists", "write") <=
           entry * pairs + line * (lines + counter(view, "lister", "tiles")));
-    CHECK(counter(view, "lister", "records") <= total(view, "converted") - total(view, "unseen"));
+    // Of two eyes a record each.
+    CHECK(counter(view, "lister", "records") <=
+          count(view["config"]["eyes"]) * (total(view, "converted") - total(view, "unseen")));
   }
   if (view["config"]["culling"]["by"] == "chunk_boxes") {
     CHECK(region_bytes(view, "chunk_table", "read") == 128 * counter(view, "culler", "nodes"));
@@ -41,7 +43,8 @@ void check_bytes(const Json& view) {
   CHECK(region_bytes(view, "subsets", "write") >=
         entry * counter_of_all(view, "sorter", "entries_split"));
   const std::uint64_t pixel_bytes = view["config"]["framebuffer"] == "rgb32f" ? 12 : 3;
-  CHECK(region_bytes(view, "frame_buffer", "write") ==
+  CHECK(region_bytes(view, "frame_buffer", "write") +
+            region_bytes(view, "right_frame_buffer", "write") ==
         pixel_bytes * counter_of_all(view, "rendering", "pixels"));
 }
 

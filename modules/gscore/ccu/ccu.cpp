@@ -261,17 +261,21 @@ void Ccu::convert() {
   const std::uint64_t until = began + std::max<std::uint64_t>(interval, words_of(second_bytes_));
   convert_.works_until(until);
   convert_.work(1);
-  const View<float>& view = job_.picture(candidate.frame).view;
   Converted out;
   out.last = candidate.last;
   out.end_of_pass = candidate.end_of_pass;
-  out.there = make_tile_geometry(view, g.gaussian, config_.tiles.rules(), out.splat, out.boxes);
-  if (out.there) {
-    add_colour(view, job_.layout.sh_degree(), g.gaussian.mean, g.sh, out.splat);
-  } else {
-    ++counters_.unseen;
-  }
-  if (out.there || out.last) {
+  const auto convert_for = [&](std::uint32_t eye, ConvertedForEye& into) {
+    const View<float>& view = job_.picture(candidate.frame, eye).view;
+    into.there =
+        make_tile_geometry(view, g.gaussian, config_.tiles.rules(), into.splat, into.boxes);
+    if (into.there) {
+      add_colour(view, job_.layout.sh_degree(), g.gaussian.mean, g.sh, into.splat);
+    }
+  };
+  convert_for(0, out);
+  if (job_.eyes > 1) convert_for(1, out.right);
+  counters_.unseen += out.any_there() ? 0 : 1;
+  if (out.any_there() || out.last) {
     converted->push(out, convert_);
   } else {
     converted_places_.add(began);

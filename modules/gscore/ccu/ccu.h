@@ -38,7 +38,7 @@ class Ccu : public sc_core::sc_module {
     Counter culled{*this, "culled", "Gaussians", "of these, that cannot touch the frame"};
     Counter second_halves{*this, "second_halves", "Gaussians", "fetched"};
     Counter runs{*this, "runs", "reads", "of these, of neighbours in memory at once"};
-    Counter converted{*this, "converted", "Gaussians", "projected and coloured"};
+    Counter converted{*this, "converted", "Gaussians", "projected and coloured, for all eyes"};
     Counter unseen{*this, "unseen", "Gaussians", "of these on no tile"};
     std::uint64_t gathered = 0;  // candidates and ends of slices
   };

@@ -73,7 +73,7 @@ class TileLister : public sc_core::sc_module {
   void run_test();  // thread
   void run_list();  // thread
   void run_draw();  // thread: passes that are projected, where that is not the list's part
-  void test_tiles(const Converted& gaussian, const Pass& pass);
+  void test_tiles(const ConvertedForEye& gaussian, std::uint32_t eye, const Pass& pass);
   // True if all lists of the pass are in memory; if not, the pool was too small.
   bool project(const Pass& pass);
   void take(const ListedTile& tile, const Pass& pass);

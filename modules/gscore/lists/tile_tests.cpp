@@ -16,9 +16,9 @@ void TileLister::run_test() {
         const Converted next = ccu.pop(test_);
         last = next.last;
         end_of_pass = next.end_of_pass;
-        if (next.there) {
-          test_tiles(next, pass);
-        } else {
+        if (next.there) test_tiles(next, 0, pass);
+        if (next.right.there) test_tiles(next.right, 1, pass);
+        if (!next.any_there()) {
           test_.work(1);
           ++counters_.ends_alone;
         }
@@ -34,7 +34,7 @@ void TileLister::run_test() {
 
 // Tiles of rows that the pass has: neighbours in a turn of their lanes, then the parts of each that
 // is touched, one after the other. The place of a Gaussian without a listed tile is the next one's.
-void TileLister::test_tiles(const Converted& gaussian, const Pass& pass) {
+void TileLister::test_tiles(const ConvertedForEye& gaussian, std::uint32_t eye, const Pass& pass) {
   ++counters_.gaussians;
   const auto columns = static_cast<int>(job_.columns);
   const PixelRect& tiles = gaussian.boxes.tiles;
@@ -60,7 +60,8 @@ void TileLister::test_tiles(const Converted& gaussian, const Pass& pass) {
       ++counters_.tile_steps;
       for (int k = x; k < std::min(x + at_once, tiles.x1); ++k) {
         ++counters_.tile_tests;
-        out.tile = of_frame + static_cast<std::uint32_t>(y * columns + k);
+        out.tile =
+            of_frame + static_cast<std::uint32_t>(y * columns + k) + eye * job_.columns_of_eye();
         if (out.tile < pass.first || out.tile >= pass.end) continue;
         if (!touches_tile(gaussian.boxes, k, y)) continue;
         wait_for_turn(test_, part_interval);

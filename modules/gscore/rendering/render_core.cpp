@@ -226,7 +226,7 @@ void RenderCore::run_drain() {
     mark = next.mark;
     if (mark == EntryMark::kEndOfTile) {
       drain_.takes_up_tile(next.tile);
-      write_tile(*next.state, job_.picture(job_.frame_of(next.tile)));
+      write_tile(*next.state, job_.picture_of(next.tile));
       free_pixels_.push(0, drain_);
       continue;
     }

@@ -16,12 +16,12 @@ CoarseFilter::CoarseFilter(const sc_core::sc_module_name& name, const HfuConfig&
       config_(config),
       built_for_(context.built_for),
       tests_(side_by_side(coarse_pipeline(config, context.job.layout.split.bound_by,
-                                          static_cast<std::uint32_t>(context.job.parts.size()),
-                                          context.built_for.single),
-                          static_cast<std::uint32_t>(context.job.parts.size()))),
+                                          context.job.parts_of_group(), context.built_for.single),
+                          context.job.parts_of_group())),
       has_cfus_(has_cfus(config, context.job.layout.split.bound_by)),
-      numbers_(group_numbers(group_flow(GroupUse::kFilter, parts_across(context.job.parts.size())),
-                             context.built_for.single)),
+      numbers_(
+          group_numbers(group_flow(GroupUse::kFilter, parts_across(context.job.parts_of_group())),
+                        context.built_for.single)),
       job_(context.job),
       record_bytes_(job_.layout.first_halves.record_bytes),
       load_("load", context.clock),
@@ -135,8 +135,11 @@ void CoarseFilter::filter_slice(const Slice& slice) {
     numbers_.leaves(cycle + config_.cfu_depth_cycles);
     ++counters_.read;
     const SplitFirstHalf first = read_first_half(split, first_half(slice.slot, i));
-    const FirstHalfBound bound = bound_first_half(split, first, job_.view_of(slice.share.group));
-    const std::uint32_t parts = test(bound, slice.share.group, open);
+    Bounds bounds;
+    for (std::uint32_t eye = 0; eye < job_.eyes; ++eye) {
+      bounds[eye] = bound_first_half(split, first, job_.view_of(slice.share.group, eye));
+    }
+    const std::uint32_t parts = test(bounds, slice.share.group, open);
     if (parts == 0) {
       places.add(cycle - 1);
       continue;
@@ -149,12 +152,12 @@ void CoarseFilter::filter_slice(const Slice& slice) {
     candidate.visit = slice.share.visit;
     candidate.slot = slice.share.first + i;
     candidate.parts = parts;
-    candidate.depth = depth_of(bound);
+    candidate.depth = depth_of(bounds[0]);
     candidate.mean_x = first.mean.x;
     candidate.mean_y = first.mean.y;
     candidate.mean_z = first.mean.z;
     candidate.carried = first.carried;
-    candidate.reach = reach(bound, slice.share.group);
+    candidate.reach = reach(bounds, slice.share.group, parts);
     to.push(candidate, filter_);
     cycle = passed = filter_.clock().now_cycles();
   }
@@ -165,8 +168,7 @@ void CoarseFilter::filter_slice(const Slice& slice) {
 
 // The parts that the Gaussian may touch, of those that are open. A part without pixels is finished
 // as soon as the news of it has arrived; until then nothing touches it.
-std::uint32_t CoarseFilter::test(const FirstHalfBound& bound, std::uint32_t group,
-                                 std::uint32_t open) {
+std::uint32_t CoarseFilter::test(const Bounds& bounds, std::uint32_t group, std::uint32_t open) {
   if (!config_.coarse_filter) return open;
   ++counters_.coarse_tests;
   counters_.coarse_tests_of_parts += count_parts(open);
@@ -174,16 +176,25 @@ std::uint32_t CoarseFilter::test(const FirstHalfBound& bound, std::uint32_t grou
   for (std::uint32_t p = 0; p < part_count(); ++p) {
     const bool tested = (open >> p & 1U) != 0;
     const PixelRect& pixels = job_.parts[p][group];
-    if (tested && !pixels.empty() && touches(bound, pixels)) parts |= 1U << p;
+    if (tested && !pixels.empty() && touches(bounds[job_.eye_of(p)], pixels)) parts |= 1U << p;
   }
   return parts;
 }
 
-// Sub-tiles that a Gaussian may reach; used only in the key of exact order.
-GroupReach CoarseFilter::reach(const FirstHalfBound& bound, std::uint32_t group) const {
-  const auto* by_extents = std::get_if<ExtentBound>(&bound);
+// Sub-tiles that a Gaussian may reach, in the eyes that it may touch; used only in the key of exact
+// order.
+GroupReach CoarseFilter::reach(const Bounds& bounds, std::uint32_t group,
+                               std::uint32_t parts) const {
+  const auto* by_extents = std::get_if<ExtentBound>(&bounds[0]);
   const bool known = by_extents != nullptr && by_extents->in_front && config_.coarse_filter;
-  return known ? group_reach(*by_extents, job_.groups[group]) : GroupReach{};
+  if (!known) return {};
+  const PixelRect& pixels = job_.groups[group];
+  const auto of_eye = [&](std::uint32_t eye) {
+    return reached_pixels(std::get<ExtentBound>(bounds[eye]), pixels);
+  };
+  constexpr std::uint32_t kRight = 2, kBoth = 3;
+  if (parts == kBoth) return group_reach(of_both(of_eye(0), of_eye(1)), pixels);
+  return group_reach(of_eye(parts == kRight ? 1 : 0), pixels);
 }
 
 SramUses CoarseFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for) {

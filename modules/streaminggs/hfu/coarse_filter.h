@@ -1,11 +1,12 @@
 // The coarse half of an HFU, or of all HFUs that share a fetch: streams shares of visits through
 // the CFUs, which know only what stands in a first half. With a shared fetch the CFUs of all HFUs
 // divide the Gaussians among themselves; a CFU bounds one once and compares the bound with every
-// part of the group. Timing: a Gaussian in each CFU at a time; the next slices are fetched while
-// this one is filtered, and the numbers of the next group are made. Function:
-// algorithm/memory/record_split.h.
+// part of the group. Of two eyes each test bounds a Gaussian for both. Timing: a Gaussian in each
+// CFU at a time; the next slices are fetched while this one is filtered, and the numbers of the
+// next group are made. Function: algorithm/memory/record_split.h.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <systemc>
@@ -68,8 +69,10 @@ class CoarseFilter : public sc_core::sc_module {
   void wait_for_numbers(const Slice& slice);
   void filter_slice(const Slice& slice);
   PlacesUnderTest& places_of(std::uint32_t visit) { return places_[visit % places_.size()]; }
-  std::uint32_t test(const FirstHalfBound& bound, std::uint32_t group, std::uint32_t open);
-  GroupReach reach(const FirstHalfBound& bound, std::uint32_t group) const;
+  // A Gaussian as each eye sees it.
+  using Bounds = std::array<FirstHalfBound, 2>;
+  std::uint32_t test(const Bounds& bounds, std::uint32_t group, std::uint32_t open);
+  GroupReach reach(const Bounds& bounds, std::uint32_t group, std::uint32_t parts) const;
   std::uint32_t part_count() const { return static_cast<std::uint32_t>(job_.parts.size()); }
 
   std::byte* first_half(std::uint32_t slot, std::uint32_t at);  // in the input buffer

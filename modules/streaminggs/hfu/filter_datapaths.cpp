@@ -27,9 +27,11 @@ std::uint32_t parts_across(std::size_t parts) {
 }
 
 Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by, std::uint32_t parts) {
-  OperationCounts in_parts = coarse_flow(bound_by, longest_case(), parts_across(parts)).counts();
+  OperationCounts in_parts =
+      coarse_flow(bound_by, longest_case(config.eyes), parts_across(parts)).counts();
   if (bound_by == CoarseBoundBy::kExtents) in_parts.look_ups += kExtentLookUps;
-  const std::uint32_t whole = folded_macs(coarse_flow(bound_by, longest_case()).counts());
+  const std::uint32_t whole =
+      folded_macs(coarse_flow(bound_by, longest_case(config.eyes)).counts());
   Datapath path = counted_datapath("coarse", "coarse", in_parts);
   path.lanes = config.cfu_lanes;
   path.copies = config.cfus;
@@ -39,7 +41,8 @@ Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by, std::u
 }
 
 Datapath fine_datapath(const HfuConfig& config, const FineRecord& record) {
-  Datapath path = counted_datapath("fine", "fine", fine_flow(longest_case(), record).all.counts());
+  Datapath path =
+      counted_datapath("fine", "fine", fine_flow(longest_case(config.eyes), record).all.counts());
   path.lanes = config.ffu_lanes;
   path.copies = config.ffus;
   path.used_macs = config.ffu_macs;
@@ -50,7 +53,8 @@ Datapath fine_datapath(const HfuConfig& config, const FineRecord& record) {
 Datapath coarse_pipeline(const HfuConfig& config, CoarseBoundBy bound_by, std::uint32_t parts,
                          const OperationLatencies& latencies) {
   Datapath path = coarse_datapath(config, bound_by, parts);
-  const auto steps = coarse_flow(bound_by, longest_case(), parts_across(parts)).steps(latencies);
+  const auto steps =
+      coarse_flow(bound_by, longest_case(config.eyes), parts_across(parts)).steps(latencies);
   schedule(path, steps, latencies);
   set_by_group(path, steps);
   return path;
@@ -59,7 +63,7 @@ Datapath coarse_pipeline(const HfuConfig& config, CoarseBoundBy bound_by, std::u
 Datapath fine_pipeline(const HfuConfig& config, const FineRecord& record,
                        const OperationLatencies& latencies) {
   Datapath path = fine_datapath(config, record);
-  const auto steps = fine_flow(longest_case(), record).all.steps(latencies);
+  const auto steps = fine_flow(longest_case(config.eyes), record).all.steps(latencies);
   schedule(path, steps, latencies);
   set_by_group(path, steps);
   return path;

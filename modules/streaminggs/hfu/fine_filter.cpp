@@ -108,8 +108,14 @@ void FineFilter::fetch(FineCandidate candidate) {
                  record_bytes_, job_.layout.second_halves.region);
   ++counters_.second_halves;
   wanted_[candidate.buffer] = count_parts(candidate.parts);
+  FineCandidate rejected = candidate;
+  rejected.mark = Mark::kRejected;
   for (const auto& part : parts_) {
-    if ((candidate.parts >> part->index & 1U) != 0) part->fetched.push(candidate, fetch_);
+    if ((candidate.parts >> part->index & 1U) != 0) {
+      part->fetched.push(candidate, fetch_);
+    } else if (place_.rejects == Rejects::kReported) {
+      part->fetched.push(rejected, fetch_);
+    }
   }
 }
 
@@ -304,7 +310,7 @@ void FineFilter::work_lanes(Part& part, std::uint64_t end) {
 void FineFilter::hand_on(Part& part, const Decoded& decoded, std::uint64_t began) {
   const FineCandidate& candidate = decoded.candidate;
   SplatToken token;
-  const View<float>& view = job_.view_of(candidate.group);
+  const View<float>& view = job_.view_of(candidate.group, job_.eye_of(part.index));
   if (!make_geometry(view, decoded.second.gaussian, token.splat) ||
       !reaches_group(token.splat, job_.parts[part.index][candidate.group])) {
     if (place_.rejects == Rejects::kDropped) {

@@ -1,7 +1,7 @@
 // The fine half of an HFU, or of all HFUs that share a fetch: fetches the second half of each
 // candidate, decodes it and puts it through the FFU: projection, exact test against the group,
 // colour. With a shared fetch a second half is read once and taken by the HFU of each part of the
-// group that the candidate may touch; its slot is free when all have it.
+// group that the candidate may touch; its slot is free when all have it. Eyes are parts, too.
 // Timing: one candidate every ffu_interval_cycles in each FFU, whose turns are spread evenly; marks
 // pass beside the lanes. Each begins only with a place in the FIFO behind its pipeline.
 // The group's pixels are found while its first second half is fetched, once no test takes those of

@@ -17,6 +17,7 @@ constexpr std::uint32_t kPaperFfuMacs = 427;
 enum class FilterCost { kPaper, kCounted };
 
 struct HfuConfig {
+  std::uint32_t eyes = 1;  // a key of the machine of exact order
   FilterCost cost = FilterCost::kCounted;
   std::uint32_t cfus = 4;
   std::uint32_t cfu_macs = 0;

@@ -16,7 +16,8 @@ void MergeUnit::KeyCodec::encode(const FineCandidate& key, std::byte* out) const
   const float words[4] = {key.depth, key.mean_x, key.mean_y, key.mean_z};
   std::memcpy(out, words, sizeof words);
   std::memcpy(out + 16, key.carried.data(), sizeof key.carried);
-  std::memcpy(out + 24, &key.slot, sizeof key.slot);
+  const std::uint32_t slot = key.slot | (key.parts - 1) << kSlotBits;
+  std::memcpy(out + 24, &slot, sizeof slot);
   std::memcpy(out + 28, &key.reach, sizeof key.reach);
 }
 
@@ -30,7 +31,10 @@ FineCandidate MergeUnit::KeyCodec::decode(const std::byte* bytes) const {
   key.mean_y = words[2];
   key.mean_z = words[3];
   std::memcpy(key.carried.data(), bytes + 16, sizeof key.carried);
-  std::memcpy(&key.slot, bytes + 24, sizeof key.slot);
+  std::uint32_t slot = 0;
+  std::memcpy(&slot, bytes + 24, sizeof slot);
+  key.slot = slot & ((1U << kSlotBits) - 1);
+  key.parts = (slot >> kSlotBits) + 1;
   std::memcpy(&key.reach, bytes + 28, sizeof key.reach);
   return key;
 }
@@ -59,7 +63,7 @@ void MergeUnit::run() {
     }
     group_ = key.group;
     merge_.work(1);
-    if (finished->finished(group_)) drop_all();
+    if (all_finished(finished, group_)) drop_all();
     if (key.mark == Mark::kEndOfGroup) {
       end_group(key);
     } else {
@@ -71,7 +75,7 @@ void MergeUnit::run() {
 
 void MergeUnit::take(const FineCandidate& key) {
   ++counters_.keys;
-  if (finished->finished(group_)) {
+  if (all_finished(finished, group_)) {
     ++counters_.dropped_saturated;
     merge_.work(1);
     return;
@@ -86,7 +90,7 @@ void MergeUnit::take(const FineCandidate& key) {
 
 // Releases every key nearer than `nearest`, from the chip and from the runs.
 void MergeUnit::release_below(float nearest) {
-  while (!finished->finished(group_)) {
+  while (!all_finished(finished, group_)) {
     RunReader* run = nearest_of(runs_);
     const bool from_run =
         run != nullptr && (pending_.empty() || NearerKey{}(run->front(), pending_.min()));
@@ -105,7 +109,7 @@ void MergeUnit::release_below(float nearest) {
 // blend_early: the nearest keys go before they are final, until the buffer holds no more than it is
 // meant to between two visits.
 void MergeUnit::force_out() {
-  while (pending_.size() > config_.entries && !finished->finished(group_)) {
+  while (pending_.size() > config_.entries && !all_finished(finished, group_)) {
     emit(take_nearest());
     ++counters_.forced_early;
   }
@@ -130,13 +134,15 @@ FineCandidate MergeUnit::take_nearest() {
 // The look-up runs beside the heap's operation, which takes as long.
 void MergeUnit::emit(const FineCandidate& key) {
   ++counters_.due;
-  if (!mask->any_unfinished(key.group, key.reach)) {
+  FineCandidate due = key;
+  due.parts &= unfinished_eyes(masks, key.group, key.reach);
+  if (due.parts == 0) {
     ++counters_.dropped_hidden;
     return;
   }
   counters_.ties += key.depth == last_depth_ ? 1 : 0;
   last_depth_ = key.depth;
-  in_turn(released, sequence_).push(key, merge_);
+  in_turn(released, sequence_).push(due, merge_);
   ++sequence_;
   ++counters_.released;
 }

@@ -1,7 +1,8 @@
 // Merge unit, exact order: keys (depth, slot) of sorted chunks wait here until nothing nearer can
 // come, and are released to the fine filters in final order. When the buffer is full, the farthest
 // keys go to DRAM as a sorted run and are merged back; the order stays exact. A key that is due and
-// reaches finished sub-tiles only is dropped: its second half is never fetched.
+// reaches finished sub-tiles only is dropped: its second half is never fetched. Of two eyes those
+// whose sub-tiles are finished do not get it.
 // Keys wait in an interval heap, which gives its nearest and its farthest key.
 // Timing: a key in or out and a mark take a cycle each. The heap begins an insert or delete every
 // `cycles_per_operation` cycles; all else passes beside it. `latency_cycles` pass in the FIFO ahead
@@ -29,8 +30,8 @@ class MergeUnit : public sc_core::sc_module {
  public:
   FifoIns<FineCandidate> sorted{"sorted"};       // visit v comes from v modulo their number
   FifoOuts<FineCandidate> released{"released"};  // the keys go to them in turn
-  FinishedGroupsIn finished{"finished"};
-  FinishedSubtilesIn mask{"mask"};
+  FinishedGroupsIns finished{"finished"};        // one an eye
+  FinishedSubtilesIns masks{"masks"};            // likewise
   MemoryPort memory;
 
   SC_HAS_PROCESS(MergeUnit);
@@ -63,6 +64,7 @@ class MergeUnit : public sc_core::sc_module {
     using Entry = FineCandidate;
     std::uint32_t group = 0;
     static constexpr std::uint32_t bytes() { return kKeyBytes; }
+    static constexpr std::uint32_t kSlotBits = 30;  // of its word, with the eyes above
     void encode(const FineCandidate& key, std::byte* out) const;
     FineCandidate decode(const std::byte* bytes) const;
   };

@@ -13,7 +13,7 @@ constexpr HeapLedger kHeap{"waiting keys", "merge", kKeyBytes, kKeyWords};
 
 SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_for) {
   SramUses uses = kHeap.sram_uses(heap_entries(config, built_for), config.cycles_per_operation);
-  uses.push_back(mask_use(built_for.group));
+  add(uses, mask_use(built_for.group), built_for.eyes);
   uses.push_back(outstanding_table(kSharedSram, built_for.memory_port));
   if (config.on_overflow != OnOverflow::kSpill) return uses;
   const SramUse block = sram_use("spill blocks", kSharedSram,
@@ -44,10 +44,11 @@ SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_f
 void MergeUnit::publish_ledger(DataSheet& sheet) {
   kHeap.publish(sheet, heap_entries(config_, built_for_), config_.cycles_per_operation,
                 heap_work());
-  const double of_mask = mask_comparators(built_for_.group);
+  const double of_mask = built_for_.eyes * mask_comparators(built_for_.group);
   sheet.part("merge", "comparator", of_mask, 1);
   sheet.operations("merge", "comparator", of_mask * static_cast<double>(counters_.due));
-  sheet.accesses("finished sub-tiles", mask_bits(built_for_.group) * counters_.due, mask->news());
+  sheet.accesses("finished sub-tiles",
+                 built_for_.eyes * mask_bits(built_for_.group) * counters_.due, news(masks));
   if (config_.on_overflow != OnOverflow::kSpill) {
     sheet.port(memory);
     return;

@@ -24,7 +24,8 @@ ExactVsu::ExactVsu(const sc_core::sc_module_name& name, const ExactVsuConfig& co
       hand_out_("hand_out", context.clock),
       upper_(std::min<std::uint64_t>(config.upper_nodes, job_.layout.chunk_table().nodes.count)),
       nodes_(config.nodes_in_flight, job_.layout.chunk_table().nodes),
-      tester_(context.clock, chunk_test_pipeline(config, context.built_for.single),
+      tester_(context.clock,
+              chunk_test_pipeline(config, context.built_for.eyes, context.built_for.single),
               config.nodes_in_test, config.test_depth_cycles),
       numbers_in_turn_(group_numbers(group_flow(GroupUse::kWalk), context.built_for.single)),
       aside_(memory, walk_, aside),
@@ -133,7 +134,7 @@ bool ExactVsu::read_node() {
 // True if all sub-tiles that the entry reaches are finished. In the next group none is yet.
 bool ExactVsu::hidden(const WalkEntry& entry) {
   ++counters_.looked_up;
-  return chunk_walk_.of_first(entry) && !mask->any_unfinished(group_, entry.reach);
+  return chunk_walk_.of_first(entry) && unfinished_eyes(masks, group_, entry.reach) == 0;
 }
 
 bool ExactVsu::enter_children() {
@@ -161,7 +162,7 @@ bool ExactVsu::test_node() {
 // A visit goes out once its successor is known: that bounds what may still come.
 bool ExactVsu::give_chunk() {
   if (room_ == 0 || chunk_walk_.begun() == 0) return false;
-  if (finished->finished(group_) && !chunk_walk_.exhausted()) {
+  if (all_finished(finished, group_) && !chunk_walk_.exhausted()) {
     end_group(true);
     return true;
   }
@@ -286,7 +287,7 @@ void ExactVsu::run_hand_out() {
     VisitShare visit = ready_.pop(hand_out_);
     hand_out_.takes_up_group(visit.group, next_visit_);
     taken_.push(0, hand_out_);
-    const bool dropped = visit.mark == Mark::kEndOfVisit && finished->finished(visit.group);
+    const bool dropped = visit.mark == Mark::kEndOfVisit && all_finished(finished, visit.group);
     hand_out_.work(1);
     if (dropped) {
       ++counters_.visits_dropped;

@@ -2,7 +2,8 @@
 // back. It hands out the chunks that can touch the group, each with the depth below which nothing
 // follows. Nodes are read ahead, several at a time, as long as their children are sure to fit the
 // queues; when a group's nodes have all been read the next group's walk begins. A node or chunk
-// that reaches finished sub-tiles only is left out when it is taken from its queue. The numbers of
+// that reaches finished sub-tiles only, in both eyes where there are two, is left out when it is
+// taken from its queue. The numbers of
 // a group are made when the registers of the group before the last are free, and its walk waits for
 // them.
 // Timing: a node's children pass the tests' lanes and come out of their pipeline test_depth_cycles
@@ -38,9 +39,9 @@ constexpr std::uint32_t kReadyVisits = 4;  // a cycle there, a cycle back, and s
 
 class ExactVsu : public sc_core::sc_module {
  public:
-  FifoOuts<VisitShare> visits{"visits"};  // one a HFU; visit v goes to v modulo their number
-  FinishedGroupsIn finished{"finished"};
-  FinishedSubtilesIn mask{"mask"};
+  FifoOuts<VisitShare> visits{"visits"};   // one a HFU; visit v goes to v modulo their number
+  FinishedGroupsIns finished{"finished"};  // one an eye
+  FinishedSubtilesIns masks{"masks"};      // likewise
   FrameHostPort host{"host"};
   MemoryPort memory;
 

@@ -38,7 +38,7 @@ SramUses ExactVsu::sram_uses(const ExactVsuConfig& config, const BuiltFor& built
       open_nodes_use(config)};
   add(uses, kChunkQueue.sram_uses(config.queue_entries, config.cycles_per_queue_operation));
   add(uses, kNodeQueue.sram_uses(config.node_queue_entries, config.cycles_per_queue_operation));
-  uses.push_back(mask_use(built_for.group));
+  add(uses, mask_use(built_for.group), built_for.eyes);
   uses.push_back(fifo_use<VisitShare>("final visits", kSharedSram, kReadyVisits, "visits"));
   uses.push_back(outstanding_table(kSharedSram, built_for.memory_port));
   uses.push_back(WalkAside::sram_use_of_block());
@@ -76,7 +76,7 @@ void ExactVsu::publish(DataSheet& sheet) {
   sheet.left_out("empty_groups", "no block of Gaussians can touch them", counters_.groups_empty,
                  "no visit, no blending");
   sheet.sram(sram_uses(config_, built_for_));
-  const double of_mask = mask_comparators(built_for_.group);
+  const double of_mask = built_for_.eyes * mask_comparators(built_for_.group);
   // Whenever one of the queues has changed the nearest chunk is compared with all open nodes.
   const double of_open = kOpenNodeWords * open_nodes(config_);
   const std::uint64_t compared = chunk_walk_.queue_operations();
@@ -84,8 +84,8 @@ void ExactVsu::publish(DataSheet& sheet) {
   sheet.operations(
       "vsu", "comparator",
       of_mask * static_cast<double>(counters_.looked_up) + of_open * static_cast<double>(compared));
-  sheet.accesses("finished sub-tiles", mask_bits(built_for_.group) * counters_.looked_up,
-                 mask->news());
+  sheet.accesses("finished sub-tiles",
+                 built_for_.eyes * mask_bits(built_for_.group) * counters_.looked_up, news(masks));
   sheet.accesses("keys of open nodes", open_nodes(config_) * compared,
                  counters_.upper_nodes_opened + counters_.nodes_read + walk.put_aside);
   // A node comes in and goes out whole, eight children and their common numbers.

@@ -133,8 +133,9 @@ FlowPart ray_sample_flow() {
   return {recorded, from, flow.size(), {}};
 }
 
-Datapath chunk_test_pipeline(const ExactVsuConfig& config, const OperationLatencies& latencies) {
-  const FlowPart flow = chunk_flow(longest_chunk_case());
+Datapath chunk_test_pipeline(const ExactVsuConfig& config, std::uint32_t eyes,
+                             const OperationLatencies& latencies) {
+  const FlowPart flow = chunk_flow(longest_chunk_case(eyes));
   Datapath path = pipeline("chunk_test", flow, config.test_lanes, latencies);
   set_by_group(path, flow.steps(latencies));
   return path;

@@ -43,7 +43,8 @@ FlowPart ray_sample_flow();
 FlowPart sampled_ray_flow();
 
 // An item a child.
-Datapath chunk_test_pipeline(const ExactVsuConfig& config, const OperationLatencies& latencies);
+Datapath chunk_test_pipeline(const ExactVsuConfig& config, std::uint32_t eyes,
+                             const OperationLatencies& latencies);
 // An item a ray; a step of one, out of a block.
 Datapath pixel_ray_pipeline(const PaperVsuConfig& config, const OperationLatencies& latencies);
 Datapath ray_step_pipeline(const PaperVsuConfig& config, const OperationLatencies& latencies);

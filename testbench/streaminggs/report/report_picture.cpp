@@ -115,6 +115,11 @@ void visit_camera(ReportVisitor& r, const Camera& camera) {
     Json{camera.position.x, camera.position.y, camera.position.z});
   r("rotation", "",
     "Rows of a matrix whose columns are the axes right, down and forward, in the world.", rotation);
+  if (r.has(camera.eyes_apart != 0)) {
+    r("eyes_apart", "world units",
+      "Distance of the right eye, along the axis right; none where there is one eye.",
+      camera.eyes_apart);
+  }
   if (!r.has(camera.principal_offset != glm::dvec2(0))) return;
   r("cx_px", "px", "Principal point from the left edge; none where it is in the middle.",
     0.5 * camera.width + camera.principal_offset.x);
@@ -158,6 +163,15 @@ void visit_image(ReportVisitor& r, const ViewResult& view, bool original_known) 
   r("misordered", "", "Blends behind a splat that is farther away, at the same pixel.",
     golden.misordered);
   r("blends", "", "Pairs of a splat and a pixel that it contributes to.", golden.blends);
+  r.each(view.right, [&](const RightEye& right) {
+    r.object("right_eye", [&] {
+      r("psnr_db", "dB", "As `image.psnr_db`, which is the left eye's where there are two.",
+        finite(right.psnr_db));
+      r("ssim", "0..1", "As `image.ssim`.", right.ssim);
+      r("max_abs_error", "linear", "As `image.max_abs_error`.",
+        [&] { return max_abs_error(right.frame, right.reference); });
+    });
+  });
   r.each(view.order_loss, [&](const OrderLoss& loss) { visit_error_parts(r, loss); });
 }
 

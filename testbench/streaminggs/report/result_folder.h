@@ -21,6 +21,10 @@ constexpr const char* kGroupTableFile = "groups.csv";
 constexpr const char* kViewFiles[] = {"frame.exr",     "frame.png",   "reference.exr",
                                       "reference.png", "report.json", kGroupTableFile};
 
+// Beside these where there are two eyes.
+constexpr const char* kRightEyeFiles[] = {"right_frame.exr", "right_frame.png",
+                                          "right_reference.exr"};
+
 class ResultFolder {
  public:
   using Path = std::filesystem::path;
@@ -39,6 +43,7 @@ class ResultFolder {
   static std::vector<Path> files_of(const Path& view) {
     std::vector<Path> files;
     for (const char* name : kViewFiles) files.push_back(view / name);
+    for (const char* name : kRightEyeFiles) files.push_back(view / name);
     for (const char* name : kErrorMapFiles) files.push_back(view / name);
     return files;
   }

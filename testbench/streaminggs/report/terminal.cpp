@@ -76,6 +76,14 @@ void print_bottleneck(const ViewResult& v) {
   }
 }
 
+void print_right_eye(const ViewResult& v) {
+  if (!v.right) return;
+  fmt::print("view {}: right eye {} beside the left one, {} dB, SSIM {:.5f}\n", v.view,
+             v.camera.eyes_apart,
+             std::isinf(v.right->psnr_db) ? "equal" : fmt::format("{:.2f}", v.right->psnr_db),
+             v.right->ssim);
+}
+
 void print_empty(std::size_t empty, std::size_t all, const char* what) {
   if (empty > 0) fmt::print("{} of {} {} hold no Gaussian\n", empty, all, what);
 }

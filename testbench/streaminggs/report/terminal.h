@@ -16,6 +16,8 @@ void print_table_head(Detail detail);
 void print_table_line(const ViewResult& view, Detail detail);
 
 void print_bottleneck(const ViewResult& view);
+// Nothing where there is one eye.
+void print_right_eye(const ViewResult& view);
 // How many of these views or frames, as `what` calls them, no Gaussian contributes to; nothing
 // where one does to each.
 void print_empty(std::size_t empty, std::size_t all, const char* what);

@@ -158,6 +158,11 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
   } else {
     result.frame.resize(job.frame_buffer.bytes);
     memory.read_back(job.frame_buffer.base, result.frame.data(), result.frame.size());
+    if (job.eyes > 1) {
+      result.right_frame.resize(job.frame_buffer.bytes);
+      memory.read_back(job.picture(0, 1).frame_buffer.base, result.right_frame.data(),
+                       result.right_frame.size());
+    }
   }
   if (waveform) {
     // The kernel writes what changed in a moment when time goes on.

@@ -132,9 +132,30 @@ ViewResult view_result(const PreparedScene& scene, const ViewJob& job, Reference
   account(view, dram, technology);
   if (is_empty(view)) view.binding = without_advice(view.binding);
   const SceneLayout& layout = scene.stored.image.layout;
-  view.once_bytes = view.golden.contributing * layout.record_bytes() + job.frame.frame_buffer.bytes;
+  view.once_bytes = view.golden.contributing * layout.record_bytes() +
+                    job.frame.eyes * job.frame.frame_buffer.bytes;
   return view;
 }
+
+namespace {
+
+// The right eye of a frame: its picture as drawn, against the reference picture of what it sees.
+RightEye right_eye_of(const PreparedScene& scene, const FrameJob& job, const GoldenFrame& golden,
+                      const std::vector<std::byte>& bytes, bool draws_reference) {
+  const View<float>& view = job.picture(0, 1).view;
+  RightEye out;
+  out.frame = decode_frame(job.frame_format, view.width, view.height, bytes);
+  if (scene.stored.original || !draws_reference) {
+    out.reference = render_reference(view, scene.given(), job.background).image;
+  } else {
+    out.reference = golden.right;
+  }
+  out.psnr_db = psnr_db(out.frame, out.reference);
+  out.ssim = ssim(out.frame, out.reference);
+  return out;
+}
+
+}  // namespace
 
 ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& camera,
                          const RunConfig& config, const Technology& technology,
@@ -147,7 +168,13 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
   ReferencePictures pictures = reference_pictures(
       scene, job.frame, config.design->draws_reference() ? &golden.image : nullptr);
   list_left_out(scene.stored, run.machine, left_out);
-  const bool equal = run.frame == encode_frame(job.frame.frame_format, golden.image);
+  bool equal = run.frame == encode_frame(job.frame.frame_format, golden.image);
+  std::optional<RightEye> right;
+  if (job.frame.eyes > 1) {
+    equal = equal && run.right_frame == encode_frame(job.frame.frame_format, golden.right);
+    right =
+        right_eye_of(scene, job.frame, golden, run.right_frame, config.design->draws_reference());
+  }
   JudgedFrame judged = judge_frame(scene, job, pictures, golden, run.frame);
   ViewResult view = view_result(scene, job, std::move(pictures), std::move(golden),
                                 std::move(judged), std::move(run), config.dram, technology);
@@ -155,6 +182,7 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
     view.fixed_rates.push_back(at_rate(per_s, view.run, config.dram, technology));
   }
   view.stated_area_mm2 = config.design->stated_area_mm2();
+  view.right = std::move(right);
   view.equals_golden = equal;
   view.left_out = std::move(entries);
   return view;

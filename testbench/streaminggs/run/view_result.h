@@ -56,11 +56,19 @@ JudgedFrame judge_frame(const PreparedScene& scene, const ViewJob& job,
                         const ReferencePictures& pictures, const GoldenFrame& golden,
                         const std::vector<std::byte>& bytes);
 
+// The right one of two eyes: its picture and the reference picture of what it sees.
+struct RightEye {
+  Image frame, reference;
+  double psnr_db = 0, ssim = 0;  // infinite where they are equal
+};
+
+// Pictures and their measures are those of the left eye where there are two.
 struct ViewResult : ReferencePictures, JudgedFrame {
   int view = 0;   // index of the camera
   Camera camera;  // as the frame has it: in its size
   GoldenFrame golden;
-  bool equals_golden = false;  // bytes of the frame buffer against the golden renderer's
+  std::optional<RightEye> right;
+  bool equals_golden = false;  // bytes of all frame buffers against the golden renderer's
   FrameResult run;
   std::vector<LeftOut> left_out;
   Binding binding;

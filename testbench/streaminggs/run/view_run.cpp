@@ -41,6 +41,13 @@ void write_view(const fs::path& folder, const ViewResult& view, const std::strin
       .write(same_png(view.frame, view.reference) ? frame : encode_png(view.reference));
   add("report.json").write(report);
   std::set<std::string> old(std::begin(kErrorMapFiles), std::end(kErrorMapFiles));
+  old.insert(std::begin(kRightEyeFiles), std::end(kRightEyeFiles));
+  if (view.right) {
+    write_image(add(kRightEyeFiles[0]), view.right->frame);
+    add(kRightEyeFiles[1]).write(encode_png(view.right->frame));
+    write_image(add(kRightEyeFiles[2]), view.right->reference);
+    for (const char* file : kRightEyeFiles) old.erase(file);
+  }
   old.insert(kGroupTableFile);
   if (const std::string groups = group_table(view); !groups.empty()) {
     add(kGroupTableFile).write(groups);
@@ -60,6 +67,7 @@ void print_views(const std::vector<ViewResult>& views, const RunSetting& setting
   for (const ViewResult& view : views) {
     if (all || &view == &views.front()) fmt::print("\n");
     print_bottleneck(view);
+    print_right_eye(view);
     print_fixed_rates(view);
     if (!all && views.size() > 1) continue;
     print_energy(view);

@@ -82,6 +82,46 @@ TEST_CASE("ledger: exact order is charged with what the golden renderer counts")
   CHECK(accesses(frame, "waiting keys 0").writes >= golden.coarse_passed);
 }
 
+// Nothing is finished early: what is tested and fetched follows from both views alone.
+TEST_CASE("ledger: two eyes share what is done once, and each is charged with its own") {
+  Settings settings = kPlain;
+  const Frame left = simulated("exact", settings, kSparse);
+  settings.emplace_back("eyes=2");
+  const Frame pair = simulated("exact", settings, kSparse);
+  check_paid(pair);
+  REQUIRE(counter(pair, "groups_saturated") == 0);
+  for (const char* once : {"first_halves", "second_halves", "coarse_tests", "released"}) {
+    INFO(once);
+    CHECK(counter(pair, once) >= counter(left, once));
+    CHECK(counter(pair, once) < 1.5 * static_cast<double>(counter(left, once)));
+  }
+  for (const char* for_each : {"fine_tests", "splats", "subtile_blends"}) {
+    INFO(for_each);
+    CHECK(counter(pair, for_each) > 1.5 * static_cast<double>(counter(left, for_each)));
+  }
+  CHECK(accesses(pair, "finished sub-tiles").reads >
+        1.5 * static_cast<double>(accesses(left, "finished sub-tiles").reads));
+  CHECK(accesses(pair, "pixel state").writes >
+        1.5 * static_cast<double>(accesses(left, "pixel state").writes));
+  std::map<std::string, std::uint64_t> lanes[2], bits[2];
+  for (const Frame* frame : {&left, &pair}) {
+    for (const auto& [d, count, busiest] : frame->result.machine.datapaths) {
+      lanes[frame == &pair][d.name] += std::uint64_t{d.lanes} * d.copies;
+      bits[frame == &pair][d.name] += d.set_bits * d.copies;
+    }
+  }
+  for (const char* doubled :
+       {"fine", "conic", "subtile_blend", "spans_begin", "row_span", "drain"}) {
+    INFO(doubled);
+    CHECK(lanes[1].at(doubled) == 2 * lanes[0].at(doubled));
+  }
+  for (const char* shared : {"coarse", "chunk_test"}) {
+    INFO(shared);
+    CHECK(lanes[1].at(shared) == lanes[0].at(shared));
+    CHECK(bits[1].at(shared) > bits[0].at(shared));  // the second eye's constants
+  }
+}
+
 TEST_CASE("ledger: paper order is charged with what the golden renderer counts") {
   Settings settings = kPlain;
   settings.insert(settings.end(),
@@ -115,7 +155,11 @@ TEST_CASE("ledger: paper order is charged with what the golden renderer counts")
 TEST_CASE("ledger: of a real frame, no line can be left out unseen") {
   const Settings groups = {"group_width_px=24", "group_height_px=24"};
   for (const auto& [preset, settings] :
-       std::map<std::string, Settings>{{"exact_vq", groups}, {"paper", groups}, {"gscore", {}}}) {
+       std::vector<std::pair<std::string, Settings>>{{"exact_vq", groups},
+                                                     {"exact_vq", {groups[0], groups[1], "eyes=2"}},
+                                                     {"paper", groups},
+                                                     {"gscore", {}},
+                                                     {"gscore", {"eyes=2"}}}) {
     INFO(preset);
     const Frame frame = simulated(preset, settings, kSparse);
     check_paid(frame);
@@ -173,6 +217,7 @@ const Choices kExact = {{"vsu.test_lanes", {"8", "128", "600"}},
                         {"vsu.queue_entries", {"9", "512"}},
                         {"merge.entries", {"16", "300"}},
                         {"merge.on_overflow", {"spill", "blend_early"}}};
+const Choices kTwoEyes = {{"eyes", {"2"}}, {"merge.entries", {"16", "300"}}};
 const Choices kPaper = {
     {"vsu.rays_in_flight", {"1", "48"}},     {"vsu.chain_entries", {"1", "4"}},
     {"vsu.step_lanes", {"8", "128", "600"}}, {"vsu.table_banks", {"1", "4"}},
@@ -200,6 +245,7 @@ TEST_CASE("ledger: no part and no port does more than a frame has time for") {
   std::mt19937_64 random(11);
   for (const auto& [preset, own, codebooks] :
        {Machine{"exact", kExact, false}, Machine{"exact_vq", kExact, true},
+        Machine{"exact", kTwoEyes, false}, Machine{"exact_vq", kTwoEyes, true},
         Machine{"paper", kSplitFetch, true}, Machine{"paper", kSharedFetch, true},
         Machine{"paper_no_vq", kSplitFetch, false}, Machine{"paper_no_vq", kSharedFetch, false}}) {
     for (int repeat = 0; repeat < 8; ++repeat) {

@@ -1,6 +1,7 @@
 // Simulates it in this process; looks values up.
 #include "tests/testbench/ledger/simulated_frame.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <utility>
 
@@ -17,7 +18,9 @@ Frame simulated(const std::string& preset, const Settings& settings, const std::
   frame.config.storage.vq.iterations = 1;
   resolve(frame.config);
   Scene scene = open_scene(source);
-  const Camera camera = scaled_to(scene.cameras.front(), 72, 48);
+  Camera camera = scaled_to(scene.cameras.front(), 72, 48);
+  const bool two_eyes = std::find(settings.begin(), settings.end(), "eyes=2") != settings.end();
+  if (two_eyes) camera.eyes_apart = 0.1;
   frame.scene.emplace(prepare(std::move(scene), frame.config, {camera}));
   frame.job = frame.config.design->job(frame.scene->stored, camera);
   frame.result =

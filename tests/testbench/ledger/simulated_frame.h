@@ -21,7 +21,7 @@ struct Frame {
   FrameResult result;
 };
 
-// 72 x 48 px of the scene's first camera.
+// 72 x 48 px of the scene's first camera, or of two eyes where the settings have eyes=2.
 Frame simulated(const std::string& preset, const Settings& settings, const std::string& source);
 
 // The ledger has no fault.

@@ -60,7 +60,7 @@ void run_walk(tb::Case& test, Takings& taken, const WalkWorkload& load, std::uin
   ExactVsu unit("vsu", plan.config, context, plan.job.spill);
   for (TimedFifo<VisitShare>* fifo : visits) unit.visits(*fifo);
   unit.finished(finished);
-  unit.mask(mask);
+  unit.masks(mask);
   bench.add_unit(unit);
   const Pace pace(seed + 1000, load.out_one_in, load.out_longest);
   bench.add_thread("hfus", [&](Activity& activity) {
