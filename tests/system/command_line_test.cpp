@@ -167,7 +167,7 @@ TEST_CASE("command line: options and their values") {
             ply_of({"0 0 0"})},
            {"$SG pack a.ply --out a.sgs > t && ! grep weighted t", {}, ply_of({"0 0 0"})},
            {"$SG describe > t && ! grep -q '```' t && cat t",
-            {"group_width_px = 96", "\n| unit | activity | resource | what it does |\n"}},
+            {"group_width_px = 128", "\n| unit | activity | resource | what it does |\n"}},
            {"$SG gpu $B --view 0,1 --set watts=5 --out g.json && cat g.json",
             {"modelled, not simulated: 918 MHz, 32 instructions of warps a cycle, 102.4 GB/s, of "
              "which it gets 0.125 and 0.125; single precision; joules are 5 W times modelled "
