@@ -210,16 +210,16 @@ std::string not_stated(const Memspec::Currents& c, const std::vector<RankActivit
   const std::vector<Count> bursts = {&Done::reads, &Done::writes};
   std::vector<std::string> missing;
   bool any = false;
-  for (const Use& use : std::vector<Use>{
-           {"idd0", &Rail::idd0, {&Done::activates}},
-           {"idd2p", &Rail::idd2p, {&Done::precharged_power_down_cycles}},
-           {"idd2n", &Rail::idd2n, {&Done::precharged_cycles}},
-           {"idd3p", &Rail::idd3p, {&Done::active_power_down_cycles}},
-           {"idd3n", &Rail::idd3n, {&Done::active_cycles}},
-           {"idd4r", &Rail::idd4r, {&Done::reads}},
-           {"idd4w", &Rail::idd4w, {&Done::writes}},
-           {"idd5", &Rail::idd5, {&Done::refreshes_all, &Done::refreshes_bank}},
-           {"idd6", &Rail::idd6, {&Done::self_refresh_cycles}}}) {
+  for (const Use& use :
+       std::vector<Use>{{"idd0", &Rail::idd0, {&Done::activates}},
+                        {"idd2p", &Rail::idd2p, {&Done::precharged_power_down_cycles}},
+                        {"idd2n", &Rail::idd2n, {&Done::precharged_cycles}},
+                        {"idd3p", &Rail::idd3p, {&Done::active_power_down_cycles}},
+                        {"idd3n", &Rail::idd3n, {&Done::active_cycles}},
+                        {"idd4r", &Rail::idd4r, {&Done::reads}},
+                        {"idd4w", &Rail::idd4w, {&Done::writes}},
+                        {"idd5", &Rail::idd5, {&Done::refreshes_all, &Done::refreshes_bank}},
+                        {"idd6", &Rail::idd6, {&Done::self_refresh_cycles}}}) {
     const bool stated = c.vdd1_ma.*use.ma > 0 || c.vdd2_ma.*use.ma > 0;
     any = any || stated;
     if (!stated && is_needed(use.counts)) missing.emplace_back(use.name);

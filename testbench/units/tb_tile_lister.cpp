@@ -229,7 +229,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
   auto done = bench.add_fifos<PassDone>("done", config.cores, 1, 1);
   bool frame_done = false;
   gscore::Phases phases;
-  TileLister unit("lister", {bench.clock(), job, config, phases}, [&](std::uint32_t) { frame_done = true; });
+  TileLister unit("lister", {bench.clock(), job, config, phases},
+                  [&](std::uint32_t) { frame_done = true; });
   for (auto* fifo : passes) unit.passes(*fifo);
   for (auto* fifo : converted) unit.converted(*fifo);
   for (auto* fifo : requests) unit.requests(*fifo);

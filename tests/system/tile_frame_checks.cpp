@@ -48,8 +48,8 @@ void check_bytes(const Json& view) {
         pixel_bytes * counter_of_all(view, "rendering", "pixels"));
 }
 
-// A pass is projected, then drawn: what one waits for is what the other takes. With two sets of lists
-// nothing waits for a phase.
+// A pass is projected, then drawn: what one waits for is what the other takes. With two sets of
+// lists nothing waits for a phase.
 void check_phases(const Json& view) {
   const auto waited = [&](const char* unit, const char* activity, const char* what) {
     return count(view["units"][unit]["activities"][activity]["waited_cycles"][what]);

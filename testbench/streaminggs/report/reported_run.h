@@ -35,10 +35,10 @@ struct ReportedView {
   // Facts about the run beside the configuration: words for a kind of fact, and the fact.
   std::vector<std::pair<std::string, std::string>> facts;
   double cycles = 0;
-  std::string image_hash;  // of the bytes loaded into the memory
-  std::string psnr_db;     // "equal" where nothing differs from the reference picture
-  bool equals = true;      // the frame is the streaming renderer's, to the byte
-  std::string holds;       // binding.holds
+  std::string image_hash;    // of the bytes loaded into the memory
+  std::string psnr_db;       // "equal" where nothing differs from the reference picture
+  bool equals = true;        // the frame is the streaming renderer's, to the byte
+  std::string holds;         // binding.holds
   bool memory_known = true;  // its energy is part of kJoules
   std::array<ReportedQuantity, kQuantities> quantities;
   const ReportedQuantity& of(Quantity q) const { return quantities[static_cast<std::size_t>(q)]; }

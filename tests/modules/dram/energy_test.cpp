@@ -165,11 +165,11 @@ TEST_CASE("energy: it is not known without a number for what took place, by tabl
   constexpr const char* kIo = "I/O energy (dram.io_pj_per_bit)";
   for (const Row& row : std::vector<Row>{
            {"", [](Memspec&, DramConfig&) {}},
-           {"idd4r", [&](Memspec& m, DramConfig&) { without(m, {&Memspec::Rail::idd4r}); }},
-           {"", [&](Memspec& m, DramConfig&) { without(m, {&Memspec::Rail::idd4w}); }},  // no write
-           {"currents", [&](Memspec& m, DramConfig&) { without_any(m); }},
-           {kIo, [](Memspec& m, DramConfig&) { m.io_pj_per_bit = 0; }},
-           {"", [](Memspec&, DramConfig& c) { c.io_pj_per_bit = 0; }}}) {
+           {"idd4r", [&](Memspec&m, DramConfig&) { without(m, {&Memspec::Rail::idd4r}); }},
+           {"", [&](Memspec&m, DramConfig&) { without(m, {&Memspec::Rail::idd4w}); }},  // no write
+           {"currents", [&](Memspec&m, DramConfig&) { without_any(m); }},
+           {kIo, [](Memspec&m, DramConfig&) { m.io_pj_per_bit = 0; }},
+           {"", [](Memspec&, DramConfig&c) { c.io_pj_per_bit = 0; }}}) {
     DramConfig config;
     Memspec m = load_memspec(config.memspec);
     row.change(m, config);

@@ -163,8 +163,9 @@ TEST_CASE("diff: joules without the memory's are compared with their like alone"
   const ReportedRun a = read(scratch, "a.json", view_of(0));
   const ReportedRun b = read(scratch, "b.json", without);
   const ReportDiff unlike = diff_runs(a, b), alike = diff_runs(b, b);
-  CHECK(unlike.unlike == std::vector<std::string>{
-                             "energy: with the memory's | without the memory's, which is not known"});
+  CHECK(unlike.unlike ==
+        std::vector<std::string>{
+            "energy: with the memory's | without the memory's, which is not known"});
   CHECK_FALSE(unlike.without_memory);
   for (const QuantityChange& q : unlike.quantities) CHECK(q.quantity != Quantity::kJoules);
   CHECK(alike.unlike.empty());

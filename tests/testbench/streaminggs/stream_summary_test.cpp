@@ -16,7 +16,8 @@ FrameResult stream_of(const std::vector<StreamedFrame>& frames) {
   return run;
 }
 
-TEST_CASE("stream: a frame behind a repeated picture is missed and latency counts from a sent pose") {
+TEST_CASE(
+    "stream: a frame behind a repeated picture is missed and latency counts from a sent pose") {
   // Pictures at 10, 20, ... ms. The third frame begins 4 ms after a pose was sent, and comes too
   // late for 40 ms.
   const FrameResult run = stream_of({{0, 0, 0.006, 0.010, {}},

@@ -28,7 +28,8 @@ void run_tile_lister(tb::Case& test, Takings& taken, const ListerWorkload& load,
   auto done = bench.add_fifos<PassDone>("done", load.cores, 1, 1);
   gscore::Phases phases;
   bool frame_done = false;
-  TileLister unit("lister", {bench.clock(), job, config, phases}, [&](std::uint32_t) { frame_done = true; });
+  TileLister unit("lister", {bench.clock(), job, config, phases},
+                  [&](std::uint32_t) { frame_done = true; });
   for (auto* fifo : passes) unit.passes(*fifo);
   for (auto* fifo : converted) unit.converted(*fifo);
   for (auto* fifo : requests) unit.requests(*fifo);
