@@ -37,6 +37,7 @@ struct ExactConfig : StreamingConfig {
     merge.output_fifo_entries = 8;
     rendering.cluster_lanes = 84;
     rendering.pixel_buffers = 1;
+    rendering.pixel_ports = 0;
     rendering.drain_on_clusters = true;
     rendering.input_fifo_entries = 40;
     rendering.begin_lanes = 11;
