@@ -16,15 +16,15 @@ from studies.cases import MEMORIES, OTHER, components
 from studies.frame_costs import COMPONENT_COLUMNS, joules_at_end, with_band
 from tables import SCENE, Column, Study
 
-OURS, OTHERS = "exact", "gscore_lossless"
+OURS, OTHERS = "exact", "gscore_lossless_boxes"
 RATED_SCENES = ("truck", "playbot", "yard", "park", "platform", "garden")
 ALONE = "alone"
 GAIN = f"{OTHERS} over {OURS}"
 # Whose energy the first screen compares, but for what codebooks or searches made.
 PAIRS = (
-    ("exact_fast", "gscore_lossless"),
-    ("exact", "gscore_lossless"),
-    ("exact_fp16", "gscore_fp32_keys"),
+    ("exact_fast", "gscore_lossless_boxes"),
+    ("exact", "gscore_lossless_boxes"),
+    ("exact_fp16", "gscore_boxes"),
 )
 GAIN_COLUMNS = (
     Column("machine / baseline", "presets"),

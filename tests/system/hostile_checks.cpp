@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/scene/camera.h"
@@ -61,15 +62,15 @@ class HostileRun {
     return run_program("timeout", joined({"-k", "5", "300", SGS_STREAMINGGS}, arguments));
   }
 
-  // Status 2, one line with one of the words, nothing written under `out`.
+  // Status 2, one line with one of the words behind notes, nothing written under `out`.
   void check_refusal(const Arguments& arguments, const Outcome& outcome, const std::string& out,
                      const std::vector<std::string>& words) {
     std::string command;
     for (const std::string& argument : arguments) command += " " + argument;
     INFO("streaminggs" << command << "\nstatus " << outcome.status << ": " << outcome.err);
     CHECK(outcome.status == 2);
-    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-    CHECK(outcome.err.rfind("streaminggs: ", 0) == 0);
+    const std::regex one_line("(streaminggs: note: .*\n)*streaminggs: (?!note: ).*\n");
+    CHECK(std::regex_match(outcome.err, one_line));
     CHECK(std::any_of(words.begin(), words.end(), [&](const std::string& word) {
       return outcome.err.find(word) != std::string::npos;
     }));

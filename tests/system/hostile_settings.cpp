@@ -16,8 +16,8 @@ namespace {
 
 // Not drawn one by one: which machine, names of files, seeds, what must fit the rest or an option.
 bool left_alone(const std::string& name) {
-  for (const char* key :
-       {"machine", "eyes", "dram.memspec", "dram.mapping", "dram.current_set", "storage.vq.seed"}) {
+  for (const char* key : {"machine", "eyes", "culling.by", "dram.memspec", "dram.mapping",
+                          "dram.current_set", "storage.vq.seed"}) {
     if (name == key) return true;
   }
   return name.rfind("sram.", 0) == 0 || name.rfind("dram.write_", 0) == 0;
