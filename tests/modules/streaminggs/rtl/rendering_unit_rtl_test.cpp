@@ -25,9 +25,8 @@ constexpr PixelSize kGroup = square_of(96);
 constexpr std::uint64_t kFirstToken = 2;  // put into the FIFO in the cycle before
 constexpr double kMostApart = 16;         // cycles a group, of pipelines that fill
 
-// The preset `exact`, with spans as late as they are in Verilog: 2 and 6 cycles behind the
-// schedule.
-RenderingConfig config_of_exact() {
+// The unit as it is in Verilog, spans as late as there: 2 and 6 cycles behind the schedule.
+RenderingConfig config_of_verilog() {
   RenderingConfig config;
   config.cluster_lanes = 56;
   config.begin_lanes = 11;
@@ -97,7 +96,7 @@ void run_unit(tb::Case& test, Takings& taken, const Recording& recording) {
   UnitContext context = bench.context(recording.job);
   context.built_for.group = kGroup;
   Listener listener("listener");
-  RenderingUnit unit("rendering", config_of_exact(), Arrival::kByToken, context,
+  RenderingUnit unit("rendering", config_of_verilog(), Arrival::kByToken, context,
                      [&](std::uint32_t) {
                        taken.push_back({bench.clock().now_cycles(), kDrained});
                      });
