@@ -100,7 +100,7 @@ class WithTheCommand(InFolder):
                 {"2 configurations, of which ": 1},
             ),
             (HALF_BY_STAGE, ("--size", "64x36"), {"| truck | 0 |": 1, "| depth keys |": 1}),
-            (WORK_PRECISION, (), {"| truck | 0 |": 21, "| 4,096 |": 2}),
+            (WORK_PRECISION, (), {"| truck | 0 |": 22, "| 4,096 |": 2}),
             (
                 ERROR_AGAINST_TIME,
                 ("--diagrams", "image", "tuning", "renderers", *SMALL_ERRORS),

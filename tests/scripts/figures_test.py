@@ -184,7 +184,7 @@ TABLES["waterfall"] = (
     "frame_waterfall",
     names(frame_costs.COMPONENT_COLUMNS),
     [
-        row | {"least mJ": 4}
+        row | {"mJ": 5, "least mJ": 4, "most mJ": 7}
         for row in grid("preset", ("exact", "gscore"), "mJ of", ("fine", "pixel_state", "all"))
     ],
     ("exact: mJ of a frame", "pixel state", "all", "5.00 (4.00 .. 7.00)"),
