@@ -7,8 +7,8 @@ it.
   figures.py                      all that traces/results and out/ have, into out/figures/
   figures.py variants roofline    these two
 
-The paper's: characterisation, dram_by_stage, tuning_curve, variants, voxel_size, filter_units.
-Ours: headline; waterfall; compare_memories; training_curve; exploration, fronts_of_orders, equal_area, group_size;
+The paper's: characterisation, dram_by_stage, tuning_curve, variants, voxel_size, filter_units,
+reproduction. Ours: headline; waterfall; compare_memories; training_curve; exploration, fronts_of_orders, equal_area, group_size;
 compare_machines_rates, _traffic and _ratios; error_image, error_tuning and error_renderers; and of the runs of `simulate` below the folder
 roofline, waits, traffic.
 
@@ -28,13 +28,14 @@ from runs.scenes import REPOSITORY
 def make_figures(arguments: argparse.Namespace) -> None:
     """Raises ValueError where nothing could be made, and for a table that is none."""
     run_arguments.need("matplotlib", "python3-matplotlib")
-    from drawing import exploration, machines, quality  # these need it
+    from drawing import exploration, machines, quality, reproduced  # these need it
     from drawing.figure import OF_FRAMES, Missing, Results, save
 
     known = {
         **machines.FIGURES,
         **quality.FIGURES,
         **exploration.FIGURES,
+        **reproduced.FIGURES,
         **OF_FRAMES,
     }
     for name in arguments.names:

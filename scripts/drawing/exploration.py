@@ -18,6 +18,7 @@ from drawing.figure import (
     Results,
     bar_style,
     from_zero,
+    heat_map,
     legend_above,
     line_style,
     number,
@@ -260,18 +261,10 @@ def filter_units(results: Results) -> Made:
         for f in rows
     ]
     figure, (axes,) = panels(1, width=5.2, height=3.9)
-    drawn = axes.imshow(gains, cmap="YlGnBu", origin="lower", aspect="auto")
-    middle = (drawn.get_clim()[0] + drawn.get_clim()[1]) / 2
-    for y, line in enumerate(gains):
-        for x, gain in enumerate(line):
-            colour = "white" if gain > middle else "black"
-            axes.annotate(f"{gain:.2f}", (x, y), ha="center", va="center", color=colour)
-    axes.set_xticks(range(len(columns)), columns)
-    axes.set_yticks(range(len(rows)), rows)
+    drawn = heat_map(axes, columns, rows, gains)
     axes.set_xlabel(coarse[0])
     axes.set_ylabel(fine[0])
     axes.set_title("Times as fast as the slowest")
-    axes.grid(visible=False)
     figure.colorbar(drawn, ax=axes, shrink=0.9)
     said = "The paper's heat map says that more CFUs help and more FFUs do not"
     return figure, f"Coarse filters against lanes of the fine ones. {said}. From {data.made}"

@@ -15,6 +15,7 @@ from matplotlib import pyplot
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 from reporting import costs
 from reporting.folder import Run, find_runs
@@ -190,6 +191,22 @@ def plain_logarithmic(axis: Axis) -> None:
     axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_locator(NullLocator())
+
+
+def heat_map(
+    axes: Axes, across: Sequence[str], up: Sequence[str], values: Sequence[Sequence[float]]
+) -> AxesImage:
+    """Each value in its cell; values: a row for each of up, from below."""
+    drawn = axes.imshow(values, cmap="YlGnBu", origin="lower", aspect="auto")
+    middle = (drawn.get_clim()[0] + drawn.get_clim()[1]) / 2
+    for y, line in enumerate(values):
+        for x, value in enumerate(line):
+            colour = "white" if value > middle else "black"
+            axes.annotate(f"{value:.2f}", (x, y), ha="center", va="center", color=colour)
+    axes.set_xticks(range(len(across)), across)
+    axes.set_yticks(range(len(up)), up)
+    axes.grid(visible=False)
+    return drawn
 
 
 def published(axes: Axes, value: float, text: str, vertical: bool = False) -> None:

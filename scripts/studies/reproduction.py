@@ -5,13 +5,12 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import itertools
-import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import tables
 from runs import run_arguments
 from runs.keeper import swept
-from runs.scenes import Scene, find_scenes, shared_names
+from runs.scenes import Scene, find_scene, find_scenes, shared_names
 from runs.simulations import (
     Run,
     cycles,
@@ -23,13 +22,24 @@ from runs.simulations import (
     read_config,
 )
 from studies.cases import model_all
-from studies.published import REAL_SIZE, dropped_percent
-from tables import PRESET, PSNR, SCENE, Column, Study
+from studies.claims import (
+    REAL,
+    SYNTHETIC,
+    VARIANTS,
+    Found,
+    Kind,
+    SceneFound,
+    Views,
+    claims_of,
+    geometric,
+    seconds,
+)
+from tables import PRESET, PSNR, SCENE, SIZE, Column, Study
 
 TEXT, IDEAL, OTHER = "paper_text", "paper_ideal", "gscore"
-NO_VQ_CGF, NO_CGF = "_no_vq_cgf", "_no_cgf"
-VARIANTS = ("", NO_CGF, NO_VQ_CGF)
+CFUS, FFUS = ("1", "2", "4", "8"), ("1", "2", "4")  # of the map, each in an HFU
 GROUPS = ("64", "80", "96", "128")
+STAND_IN = "builtin:object?n=300000"  # as many Gaussians as the paper's synthetic scenes
 CHANNEL_GB_S = 6.4  # of LPDDR3-1600 x32
 
 # What lies between the two presets, in parts: keys by how they begin, the first that fits.
@@ -41,8 +51,6 @@ PARTS = {
     "spans and a second pixel buffer": ("rendering.",),
     "no refresh, codebooks kept": ("dram.", "codebook."),
 }
-
-Views = Sequence[dict]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -57,75 +65,6 @@ class Point:
         return self.preset, self.group, self.channels * CHANNEL_GB_S
 
 
-@dataclasses.dataclass(frozen=True)
-class SceneFound:
-    """What a scene gave, by variant of a point's preset. gpu: seconds of its frame."""
-
-    of: Mapping[str, Views]
-    other: Views
-    gpu: float
-
-    def speed(self) -> float:
-        return mean(self.other, cycles) / mean(self.of[""], cycles)
-
-
-Found = Sequence[SceneFound]
-
-
-def geometric(values: Iterator[float]) -> float:
-    logarithms = [math.log(value) for value in values]
-    return math.exp(math.fsum(logarithms) / len(logarithms))
-
-
-def over_scenes(of_scene: Callable[[SceneFound], float]) -> Callable[[Found], float]:
-    return lambda found: geometric(of_scene(each) for each in found)
-
-
-def seconds(views: Views) -> float:
-    return mean(views, lambda view: view["frame"]["time_s"])
-
-
-def gain(slower: str, faster: str) -> Callable[[Found], float]:
-    return over_scenes(lambda s: mean(s.of[slower], cycles) / mean(s.of[faster], cycles))
-
-
-@dataclasses.dataclass(frozen=True)
-class Claim:
-    """low, high: of what is measured, where the claim holds."""
-
-    name: str
-    published: float
-    low: float
-    high: float
-    measured: Callable[[Found], float]
-
-    def holds(self, found: Found) -> bool:
-        return self.low <= self.measured(found) <= self.high
-
-
-def within(name: str, published: float, share: float, measured: Callable) -> Claim:
-    return Claim(name, published, published * (1 - share), published * (1 + share), measured)
-
-
-# Rates are those of its real scenes. Bands are wide where the scenes are not the paper's.
-CLAIMS = (
-    within("GPU, frames/s", 4.9, 0.2, over_scenes(lambda s: 1 / s.gpu)),
-    within("GSCore, frames/s", 106, 0.25, over_scenes(lambda s: 1 / seconds(s.other))),
-    within("frames/s", 224, 0.2, over_scenes(lambda s: 1 / seconds(s.of[""]))),
-    within("times as fast as GSCore", 2.1, 0.15, over_scenes(SceneFound.speed)),
-    within("times as fast as the GPU", 45.7, 0.2, over_scenes(lambda s: s.gpu / seconds(s.of[""]))),
-    within(
-        *("times less energy than GSCore", 2.3, 0.25),
-        over_scenes(lambda s: mean(s.other, joules) / mean(s.of[""], joules)),
-    ),
-    within("gain of the coarse filter", 2.06, 0.15, gain(NO_CGF, "")),
-    Claim("gain of codebooks without it", 1.0, 0.9, 1.1, gain(NO_VQ_CGF, NO_CGF)),
-    Claim(
-        *("dropped by both filters, %", 76.3, 71.3, 81.3),
-        lambda found: math.fsum(mean(s.of[""], dropped_percent) for s in found) / len(found),
-    ),
-)
-
 POINT = (
     PRESET,
     Column("group px", "side of a pixel group", "px"),
@@ -135,7 +74,7 @@ CLAIM_COLUMNS = (
     Column("claim", "of the paper; means over the scenes, geometric but for percentages"),
     Column("published", "by the paper"),
     Column("least", "that passes", "", ".3g"),
-    Column("most", "that passes", "", ".3g"),
+    Column("most", "that passes; inf: no limit", "", ".3g"),
     *POINT,
     Column("measured", "of the scenes here", "", ".3g"),
     Column("passes", "measured lies between least and most"),
@@ -151,12 +90,21 @@ SERVES_COLUMNS = (
 )
 SCENE_COLUMNS = (
     SCENE,
+    SIZE,
     *POINT,
     Column("frames/s", "mean over the views", "1/s", ".1f"),
     Column("times as fast", "as GSCore", "", ".2f"),
     Column("times less energy", "than GSCore", "", ".2f"),
     PSNR,
     Column("GSCore's dB", "PSNR of its worst view", "dB", ".2f"),
+    Column("mm2", "area of the machine, the largest of the views", "mm2", ".2f"),
+)
+MAP_COLUMNS = (
+    PRESET,
+    Column("CFUs", "of an HFU", "", "d"),
+    Column("FFUs", "of an HFU", "", "d"),
+    Column("times as fast", "as with one of each; geometric mean over the scenes", "", ".2f"),
+    Column("dB, least", "PSNR of the worst view", "dB", ".1f"),
 )
 WATERFALL_COLUMNS = (
     Column("order", "from the ideal to the text, each part taken away; or the parts reversed"),
@@ -176,25 +124,27 @@ def claim_rows(point: Point, found: Found) -> list[tuple]:
     return [
         (
             *(claim.name, claim.published, claim.low, claim.high, *point.cells()),
-            *(claim.measured(found), "yes" if claim.holds(found) else "no", *pictures),
+            *(claim.measured(claim.among(found)), "yes" if claim.holds(found) else "no"),
+            *pictures,
         )
-        for claim in CLAIMS
+        for claim in claims_of(found)
     ]
 
 
 def serves_row(point: Point, found: Found) -> tuple:
-    fail = [claim.name for claim in CLAIMS if not claim.holds(found)]
+    claims = claims_of(found)
+    fail = [claim.name for claim in claims if not claim.holds(found)]
     area = max(mm2(view) for each in found for view in each.of[""])
-    passed = len(CLAIMS) - len(fail)
-    return (*point.cells(), passed, len(CLAIMS), "; ".join(fail), area)
+    return (*point.cells(), len(claims) - len(fail), len(claims), "; ".join(fail), area)
 
 
 def scene_rows(point: Point, scenes: Sequence[Scene], found: Found) -> list[tuple]:
     return [
         (
-            *(scene.name, *point.cells(), 1 / seconds(s.of[""]), s.speed()),
+            *(scene.name, s.kind.size, *point.cells(), 1 / seconds(s.of[""]), s.speed()),
             mean(s.other, joules) / mean(s.of[""], joules),
             *(min(map(decibels, s.of[""])), min(map(decibels, s.other))),
+            max(map(mm2, s.of[""])),
         )
         for scene, s in zip(scenes, found)
     ]
@@ -249,98 +199,174 @@ def waterfall_rows(order: str, steps: Sequence[tuple[str, float, float]]) -> lis
     return rows
 
 
+def map_rows(preset: str, by_units: Mapping[tuple[str, str], Sequence[Views]]) -> list[tuple]:
+    """by_units: views of each scene by CFUs and FFUs."""
+    one = by_units[CFUS[0], FFUS[0]]
+    return [
+        (
+            *(preset, int(cfus), int(ffus)),
+            geometric(mean(a, cycles) / mean(b, cycles) for a, b in zip(one, of_scenes)),
+            min(decibels(view) for views in of_scenes for view in views),
+        )
+        for (cfus, ffus), of_scenes in by_units.items()
+    ]
+
+
 def add_reproduction_arguments(to: run_arguments.Parser) -> None:
     run_arguments.add_scenes(to, "all real scenes")
+    to.add_argument(
+        *("--synthetic", "-s"),
+        action="append",
+        metavar="SCENE",
+        help=f"drawn at {SYNTHETIC.size}, in voxels of 0.4; default: {STAND_IN}",
+    )
     run_arguments.add_side_by_side(to)
     run_arguments.add_view(to)
-    run_arguments.add_size(to, REAL_SIZE)
     to.add_argument("--groups", nargs="+", default=list(GROUPS), metavar="PX", help="sides")
     to.add_argument(
         "--channels", nargs="+", type=int, default=[4, 8], metavar="N", help="of memory"
     )
-    to.add_argument("--waterfall-group", default="96", metavar="PX", help="of the waterfall")
+    to.add_argument(
+        "--waterfall-group", default="96", metavar="PX", help="of the waterfall and the map"
+    )
 
 
 def settings_of(group: str, channels: int) -> tuple[str, ...]:
     return (*group_assignments(group), f"dram.channels={channels}")
 
 
-def make_reproduction(arguments: argparse.Namespace) -> None:
-    scenes = find_scenes(arguments.scenes or shared_names(), arguments.cameras)
-    base = [Run(scene, arguments.view, arguments.size) for scene in scenes]
-    memory = [f"dram.channels={channels}" for channels in arguments.channels]
-    points = [
-        Point(*each)
-        for each in itertools.product((TEXT, IDEAL), arguments.groups, arguments.channels)
-    ]
-    text, ideal = (
-        read_config(arguments.streaminggs, dataclasses.replace(base[0], config=preset))
-        for preset in (TEXT, IDEAL)
-    )
-    orders = list(waterfall_orders(settings_by_part(text, ideal)))
-    at = settings_of(arguments.waterfall_group, arguments.channels[0])
+@dataclasses.dataclass(frozen=True)
+class Plan:
+    """What is run of each scene."""
 
-    def runs_of(run: Run) -> dict[object, Run]:
-        """Of a scene, by what they are of."""
-        runs: dict[object, Run] = {
-            channels: dataclasses.replace(run, config=OTHER, overrides=(of,))
-            for channels, of in zip(arguments.channels, memory)
-        }
-        for point, variant in itertools.product(points, VARIANTS):
-            over = settings_of(point.group, point.channels)
-            runs[point, variant] = dataclasses.replace(
-                run, config=point.preset + variant, overrides=over
+    points: Sequence[Point]
+    orders: Sequence[tuple[str, list]]  # of the waterfall
+    group: str  # of the waterfall and the map
+    channels: int  # of both
+
+    def runs(self, kind: Kind, run: Run) -> dict[object, Run]:
+        """Of a scene, by what they are of. run: its scene, view and size."""
+        out: dict[object, Run] = {
+            channels: dataclasses.replace(
+                run, config=OTHER, overrides=(f"dram.channels={channels}",)
             )
-        for order, steps in orders:
-            for step, gone in steps:
-                runs[order, step] = dataclasses.replace(run, config=IDEAL, overrides=(*at, *gone))
-        return runs
+            for channels in {point.channels for point in self.points}
+        }
 
-    by_scene = [runs_of(run) for run in base]
-    asked = list(dict.fromkeys(run for of in by_scene for run in of.values()))
+        def put(name: object, config: str, *keys: str) -> None:
+            out[name] = dataclasses.replace(run, config=config, overrides=(*kind.keys, *keys))
+
+        for point, (name, (suffix, keys)) in itertools.product(self.points, VARIANTS.items()):
+            at = settings_of(point.group, point.channels)
+            put((point, name), point.preset + suffix, *at, *keys)
+        at = settings_of(self.group, self.channels)
+        for order, steps in self.orders:
+            for step, gone in steps:
+                put((order, step), IDEAL, *at, *gone)
+        for preset, cfus, ffus in itertools.product((TEXT, IDEAL), CFUS, FFUS):
+            put((preset, cfus, ffus), preset, *at, f"hfu.cfus={cfus}", f"hfu.ffus={ffus}")
+        return out
+
+
+@dataclasses.dataclass(frozen=True)
+class Measured:
+    """Views of a scene by what they are of, as in Plan.runs."""
+
+    kind: Kind
+    views: Mapping[object, Views]
+    gpu: float
+
+    def found(self, channels: int, of: Mapping[str, object]) -> SceneFound:
+        """of: what each variant's views are of."""
+        by_variant = {variant: self.views[what] for variant, what in of.items()}
+        return SceneFound(self.kind, by_variant, self.views[channels], self.gpu)
+
+
+def measure(arguments: argparse.Namespace, of: Sequence[tuple[Kind, Run]], plan: Plan):
+    """Measured of each scene."""
+    by_scene = [plan.runs(kind, run) for kind, run in of]
+    asked = list(dict.fromkeys(run for runs in by_scene for run in runs.values()))
     views = {
         run: outcome.accepted()
         for run, outcome in zip(asked, swept(arguments, "reproduction", asked))
     }
-    gpu = [mean(each, lambda view: view["seconds"]) for each in model_all(arguments, base)]
+    gpu = model_all(arguments, [run for _, run in of])
+    return [
+        Measured(
+            kind,
+            {what: views[each] for what, each in runs.items()},
+            mean(modelled, lambda view: view["seconds"]),
+        )
+        for (kind, _), runs, modelled in zip(of, by_scene, gpu)
+    ]
 
-    def found_at(point: Point) -> Found:
-        return [
-            SceneFound(
-                {variant: views[runs[point, variant]] for variant in VARIANTS},
-                views[runs[point.channels]],
-                of_gpu,
-            )
-            for runs, of_gpu in zip(by_scene, gpu)
-        ]
+
+def make_reproduction(arguments: argparse.Namespace) -> None:
+    real = find_scenes(arguments.scenes or shared_names(), arguments.cameras)
+    synthetic = [find_scene(name) for name in arguments.synthetic or (STAND_IN,)]
+    of = [
+        (kind, Run(scene, arguments.view, kind.size))
+        for kind, scenes in ((REAL, real), (SYNTHETIC, synthetic))
+        for scene in scenes
+    ]
+    text, ideal = (
+        read_config(arguments.streaminggs, dataclasses.replace(of[0][1], config=preset))
+        for preset in (TEXT, IDEAL)
+    )
+    points = [
+        Point(*each)
+        for each in itertools.product((TEXT, IDEAL), arguments.groups, arguments.channels)
+    ]
+    orders = list(waterfall_orders(settings_by_part(text, ideal)))
+    plan = Plan(points, orders, arguments.waterfall_group, arguments.channels[0])
+    measured = measure(arguments, of, plan)
+    scenes = [run.scene for _, run in of]
+    every = (view for each in measured for views in each.views.values() for view in views)
+    by = tables.made_of(arguments.streaminggs, every, scenes)
+
+    def write(name: str, columns: Sequence[Column], rows: list[tuple], about: str = "") -> None:
+        tables.write(arguments.out, name, by, columns, rows, about)
+
+    found = {
+        point: [each.found(point.channels, {v: (point, v) for v in VARIANTS}) for each in measured]
+        for point in points
+    }
+    write(
+        *("reproduction_claims", CLAIM_COLUMNS),
+        [row for point, of_point in found.items() for row in claim_rows(point, of_point)],
+    )
+    rows = [serves_row(point, of_point) for point, of_point in found.items()]
+    write("reproduction", SERVES_COLUMNS, rows, ABOUT)
+    write(
+        *("reproduction_scenes", SCENE_COLUMNS),
+        [row for point, of_point in found.items() for row in scene_rows(point, scenes, of_point)],
+    )
 
     def steps_of(order: str, names: Sequence[str]) -> Iterator[tuple[str, float, float]]:
         for name in names:
-            found = [
-                SceneFound(
-                    {"": views[runs[order, name]]}, views[runs[arguments.channels[0]]], of_gpu
-                )
-                for runs, of_gpu in zip(by_scene, gpu)
-            ]
-            yield name, geometric(s.speed() for s in found), worst_db(found, lambda s: s.of[""])
+            of_step = [each.found(plan.channels, {"": (order, name)}) for each in measured]
+            speed = geometric(s.speed() for s in of_step)
+            yield name, speed, worst_db(of_step, lambda s: s.of[""])
 
-    by = tables.made_of(
-        arguments.streaminggs, (view for of in views.values() for view in of), scenes
-    )
-    found = {point: found_at(point) for point in points}
-    out = arguments.out
-    rows = [row for point, of in found.items() for row in claim_rows(point, of)]
-    tables.write(out, "reproduction_claims", by, CLAIM_COLUMNS, rows)
-    rows = [serves_row(point, of) for point, of in found.items()]
-    tables.write(out, "reproduction", by, SERVES_COLUMNS, rows, ABOUT)
-    rows = [row for point, of in found.items() for row in scene_rows(point, scenes, of)]
-    tables.write(out, "reproduction_scenes", by, SCENE_COLUMNS, rows)
     rows = [
         row
         for order, steps in orders
         for row in waterfall_rows(order, list(steps_of(order, [name for name, _ in steps])))
     ]
-    tables.write(out, "reproduction_waterfall", by, WATERFALL_COLUMNS, rows)
+    write("reproduction_waterfall", WATERFALL_COLUMNS, rows)
+    rows = [
+        row
+        for preset in (TEXT, IDEAL)
+        for row in map_rows(
+            preset,
+            {
+                units: [each.views[(preset, *units)] for each in measured]
+                for units in itertools.product(CFUS, FFUS)
+            },
+        )
+    ]
+    write("reproduction_map", MAP_COLUMNS, rows)
+    tables.draw_beside(arguments.out, "reproduction")
 
 
 ABOUT = (
@@ -358,6 +384,10 @@ most faithful reading, and `paper_ideal`, with the assumptions under which its n
   reproduction_claims     each claim: published, band, measured, passes or not, with its dB
   reproduction_scenes     rate, speed, energy and dB by scene
   reproduction_waterfall  from the ideal to the text, part by part, in two orders
+  reproduction_map        speed by CFUs and FFUs, the paper's heat map
+
+and their figure, reproduction. SCENE are real ones. A claim of a kind is of scenes of that kind, all
+others of all.
 """,
     ("results.py reproduction truck playbot platform yard garden park",),
     add_reproduction_arguments,

@@ -15,7 +15,7 @@ import results
 import tables
 from runs.files import content_digest
 from runs.scenes import Scene
-from studies import compare_machines, frame_costs, headline, matched, reproduction
+from studies import claims, compare_machines, frame_costs, headline, matched, reproduction
 from studies.cases import (
     GPU,
     Case,
@@ -393,37 +393,58 @@ class Reproduction(unittest.TestCase):
             "energy": {"total_j": joules},
             "image": {"psnr_db": psnr_db},
             "area_mm2": {"total": 5.5},
+            "dram": {"bytes": 1e9 * joules},
             "units": {"hfu0": {"counters": {"fine_tests": 1, "splats": 25}}}
             | {"coarse": {"counters": {"coarse_tests_of_parts": 100}}},
         }
 
-    def found(self, cycles: int, joules: float) -> reproduction.SceneFound:
-        """GSCore: 4 M cycles and 4 mJ."""
-        views = {"": cycles, "_no_cgf": 2 * cycles, "_no_vq_cgf": 3 * cycles}
-        return reproduction.SceneFound(
-            {variant: [self.view(count, joules)] for variant, count in views.items()},
+    def found(self, kind: claims.Kind, cycles: int, joules: float) -> claims.SceneFound:
+        """GSCore: 4 M cycles, 4 mJ and 4 MB."""
+        factors = {"": 1, "_no_cgf": 2, "_no_vq_cgf": 3}
+        factors |= {claims.TWICE_CFUS: 0.5, claims.TWICE_FFUS: 1}
+        return claims.SceneFound(
+            kind,
+            {variant: [self.view(by * cycles, joules)] for variant, by in factors.items()},
             [self.view(4_000_000, 4e-3, None)],
             0.2,
         )
 
     def test_claims_are_of_geometric_means(self):
-        found = [self.found(1_000_000, 1e-3), self.found(4_000_000, 4e-3)]
-        measured = {claim.name: claim.measured(found) for claim in reproduction.CLAIMS}
+        real = [self.found(claims.REAL, 1_000_000, 1e-3), self.found(claims.REAL, 4_000_000, 4e-3)]
+        found = [*real, self.found(claims.SYNTHETIC, 2_000_000, 2e-3)]
+        measured = {claim.name: claim.measured(claim.among(found)) for claim in claims.CLAIMS}
         self.assertAlmostEqual(measured["times as fast as GSCore"], 2)
         self.assertAlmostEqual(measured["times less energy than GSCore"], 2)
-        self.assertAlmostEqual(measured["GPU, frames/s"], 5)
+        self.assertAlmostEqual(measured["times fewer bytes than GSCore, as units ask"], 2)
+        self.assertAlmostEqual(measured["GPU, frames/s, real"], 5)
+        self.assertAlmostEqual(measured["frames/s, real"], 500)
+        self.assertAlmostEqual(measured["frames/s, synthetic"], 500)
         self.assertAlmostEqual(measured["gain of the coarse filter"], 2)
         self.assertAlmostEqual(measured["gain of codebooks without it"], 1.5)
+        self.assertAlmostEqual(measured["gain of twice the CFUs"], 2)
         self.assertAlmostEqual(measured["dropped by both filters, %"], 75)
-        rows = reproduction.claim_rows(reproduction.Point("paper_text", "96", 4), found)
+        point = reproduction.Point("paper_text", "96", 4)
+        rows = reproduction.claim_rows(point, found)
         passes = {row[0]: row[8] for row in rows}
         self.assertEqual(passes["times as fast as GSCore"], "yes")
         self.assertEqual(passes["gain of codebooks without it"], "no")
         self.assertEqual(rows[0][4:7] + rows[0][9:], ("paper_text", "96", 25.6, 30.0, math.inf))
-        *_, passed, of, fail, area = reproduction.serves_row(
-            reproduction.Point("paper_text", "96", 4), found
-        )
-        self.assertEqual((passed + len(fail.split("; ")), of, area), (of, 9, 5.5))
+        *_, passed, of, fail, area = reproduction.serves_row(point, found)
+        self.assertEqual((passed + len(fail.split("; ")), of, area), (of, len(rows), 5.5))
+
+    def test_a_claim_without_a_scene_of_its_kind_is_left_out(self):
+        found = [self.found(claims.REAL, 1_000_000, 1e-3)]
+        names = [claim.name for claim in claims.claims_of(found)]
+        self.assertIn("frames/s, real", names)
+        self.assertNotIn("frames/s, synthetic", names)
+
+    def test_a_map_is_beside_one_unit_of_each(self):
+        def views(cycles: int) -> list[list[dict]]:
+            return [[self.view(cycles, 1e-3)]]
+
+        rows = reproduction.map_rows("paper_text", {("1", "1"): views(8), ("2", "1"): views(4)})
+        self.assertEqual([row[:3] for row in rows], [("paper_text", 1, 1), ("paper_text", 2, 1)])
+        self.assertAlmostEqual(rows[1][3], 2)
 
     def test_a_waterfall_takes_every_part_away_in_both_orders(self):
         text = {"vsu": {"ray_lanes": 8}, "hfu": {"ffu_lanes": 16}, "codebook": {"preloaded": False}}

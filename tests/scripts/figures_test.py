@@ -25,6 +25,7 @@ from studies import (
     frame_costs,
     headline,
     quality,
+    reproduction,
     variants,
 )
 
@@ -321,6 +322,33 @@ class Drawn(Figures):
                 png = (self.folder / "figures" / f"{name}.png").read_bytes()
                 self.assertGreater(len(png), 5000)
         self.assertEqual(list((self.folder / "figures").glob("*.part")), [])
+
+    @nightly
+    def test_claims_with_their_waterfalls_and_maps(self):
+        by = tables.Made("scripts/results.py reproduction truck", ("0123abc",))
+        presets = ("paper_text", "paper_ideal")
+        claims = [
+            {"claim": claim, "published": said, "preset": preset, "group px": group}
+            | {"passes": "yes" if group == "96" else "no"}
+            for claim, said in (("frames/s", 224), ("gain of the coarse filter", "about 1"))
+            for preset in presets
+            for group in ("64", "96")
+        ]
+        steps = grid("order", ("forwards", "backwards"), "step", ("all assumptions", "deep queues"))
+        made = {
+            "claims": (reproduction.CLAIM_COLUMNS, claims),
+            "waterfall": (reproduction.WATERFALL_COLUMNS, steps),
+            "map": (reproduction.MAP_COLUMNS, grid("preset", presets, "CFUs", (1, 2))),
+        }
+        for name, (columns, different) in made.items():
+            head = names(columns)
+            of = [tables.Column(column, "") for column in head]
+            tables.save(self.folder, f"reproduction_{name}", by, of, rows(head, *different))
+        self.assertEqual(self.made("reproduction")[0], 0)
+        text = self.svg_text("reproduction")
+        for word in ("groups of 96 px", "frames/s", "GSCore, backwards", "− deep queues", "CFUs of"):
+            self.assertIn(word, text)
+        self.assertNotIn("coarse filter", text)
 
     @unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")
     @nightly

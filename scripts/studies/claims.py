@@ -1,0 +1,141 @@
+"""What the paper (StreamingGS, DAC 2025) claims of its machine, and when that holds of what was
+measured here."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+from runs.simulations import asked_mb, cycles, joules, mean
+from studies.published import REAL_SIZE, SYNTHETIC_SIZE, dropped_percent
+
+Views = Sequence[dict]
+
+NO_VQ_CGF, NO_CGF = "_no_vq_cgf", "_no_cgf"
+# Of a preset, and keys over it; FFUs are those of an HFU.
+TWICE_CFUS, TWICE_FFUS = "twice the CFUs", "twice the FFUs"
+VARIANTS: dict[str, tuple[str, tuple[str, ...]]] = {
+    "": ("", ()),
+    NO_CGF: (NO_CGF, ()),
+    NO_VQ_CGF: (NO_VQ_CGF, ()),
+    TWICE_CFUS: ("", ("hfu.cfus=8",)),
+    TWICE_FFUS: ("", ("hfu.ffus=2",)),
+}
+
+
+@dataclasses.dataclass(frozen=True)
+class Kind:
+    """Scenes as the paper sorts them: size of a frame, keys of its machine, and the published frames
+    a second of the GPU, of GSCore and of its machine."""
+
+    name: str
+    size: str
+    keys: tuple[str, ...]
+    rates: tuple[float, float, float]
+
+
+REAL = Kind("real", REAL_SIZE, (), (4.9, 106, 224))
+SYNTHETIC = Kind("synthetic", SYNTHETIC_SIZE, ("storage.voxel_rule=synthetic",), (8.5, 184, 388))
+
+
+@dataclasses.dataclass(frozen=True)
+class SceneFound:
+    """What a scene gave, by variant of a point's preset. gpu: seconds of its frame."""
+
+    kind: Kind
+    of: Mapping[str, Views]
+    other: Views
+    gpu: float
+
+    def speed(self) -> float:
+        return mean(self.other, cycles) / mean(self.of[""], cycles)
+
+
+Found = Sequence[SceneFound]
+
+
+def geometric(values: Iterator[float]) -> float:
+    logarithms = [math.log(value) for value in values]
+    return math.exp(math.fsum(logarithms) / len(logarithms))
+
+
+def over_scenes(of_scene: Callable[[SceneFound], float]) -> Callable[[Found], float]:
+    return lambda found: geometric(of_scene(each) for each in found)
+
+
+def seconds(views: Views) -> float:
+    return mean(views, lambda view: view["frame"]["time_s"])
+
+
+def gain(slower: str, faster: str) -> Callable[[Found], float]:
+    return over_scenes(lambda s: mean(s.of[slower], cycles) / mean(s.of[faster], cycles))
+
+
+def less_than_other(value: Callable[[dict], float]) -> Callable[[Found], float]:
+    """How many times less than GSCore's."""
+    return over_scenes(lambda s: mean(s.other, value) / mean(s.of[""], value))
+
+
+@dataclasses.dataclass(frozen=True)
+class Claim:
+    """low, high: of what is measured, where the claim holds. published: as number or text. kind: of
+    the scenes that it is of; None: of all."""
+
+    name: str
+    published: float | str
+    low: float
+    high: float
+    measured: Callable[[Found], float]
+    kind: Kind | None = None
+
+    def among(self, found: Found) -> Found:
+        return [each for each in found if self.kind in (None, each.kind)]
+
+    def holds(self, found: Found) -> bool:
+        return self.low <= self.measured(self.among(found)) <= self.high
+
+
+def within(
+    name: str, published: float, share: float, measured: Callable, kind: Kind | None = None
+) -> Claim:
+    return Claim(name, published, published * (1 - share), published * (1 + share), measured, kind)
+
+
+def rate_claims(kind: Kind) -> tuple[Claim, ...]:
+    """Bands are wide where the scenes are not the paper's."""
+    gpu, other, own = kind.rates
+    return (
+        within(f"GPU, frames/s, {kind.name}", gpu, 0.2, over_scenes(lambda s: 1 / s.gpu), kind),
+        within(
+            *(f"GSCore, frames/s, {kind.name}", other, 0.25),
+            *(over_scenes(lambda s: 1 / seconds(s.other)), kind),
+        ),
+        within(
+            *(f"frames/s, {kind.name}", own, 0.2),
+            *(over_scenes(lambda s: 1 / seconds(s.of[""])), kind),
+        ),
+    )
+
+
+CLAIMS = (
+    *rate_claims(REAL),
+    *rate_claims(SYNTHETIC),
+    within("times as fast as GSCore", 2.1, 0.15, over_scenes(SceneFound.speed)),
+    within("times as fast as the GPU", 45.7, 0.2, over_scenes(lambda s: s.gpu / seconds(s.of[""]))),
+    within("times less energy than GSCore", 2.3, 0.25, less_than_other(joules)),
+    within("times fewer bytes than GSCore, as units ask", 2.3, 0.25, less_than_other(asked_mb)),
+    within("gain of the coarse filter", 2.06, 0.15, gain(NO_CGF, "")),
+    Claim("gain of codebooks without it", "about 1", 0.9, 1.1, gain(NO_VQ_CGF, NO_CGF)),
+    Claim(
+        *("dropped by both filters, %", 76.3, 71.3, 81.3),
+        lambda found: math.fsum(mean(s.of[""], dropped_percent) for s in found) / len(found),
+    ),
+    Claim("gain of twice the CFUs", "more than 1", 1.05, math.inf, gain("", TWICE_CFUS)),
+    Claim("gain of twice the FFUs", "1", 0.95, 1.05, gain("", TWICE_FFUS)),
+)
+
+
+def claims_of(found: Found) -> list[Claim]:
+    """Those that have a scene."""
+    return [claim for claim in CLAIMS if claim.among(found)]
