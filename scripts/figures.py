@@ -8,9 +8,10 @@ it.
   figures.py variants roofline    these two
 
 The paper's: characterisation, dram_by_stage, tuning_curve, variants, voxel_size, filter_units,
-reproduction. Ours: headline; waterfall; compare_memories; training_curve; exploration, fronts_of_orders, equal_area, group_size;
-compare_machines_rates, _traffic and _ratios; error_image, error_tuning and error_renderers; and of the runs of `simulate` below the folder
-roofline, waits, traffic.
+reproduction. Ours: headline; waterfall; compare_memories; training_curve; exploration,
+fronts_of_orders, equal_area, group_size; compare_machines_rates, _traffic and _ratios; error_image,
+error_tuning and error_renderers; and of the runs of `simulate` below the folder roofline, waits,
+traffic.
 
 Needs Debian's python3-matplotlib, which scripts/tools.sh installs.
 """

@@ -98,9 +98,10 @@ def run(
     """Simulates and gives the report of each view.
 
     scene: builtin:NAME?n=COUNT, a real scene of ../shared by name, or a file or folder of any form
-    that the command reads, with `cameras`, or with NAME.json beside it. view: a number, "0,2" or "all". size: "WxH". settings: keys of the
-    configuration over those of `config`. fit_memories: as the option, on-chip memories as large as
-    all else needs. out: a folder that keeps pictures and reports.
+    that the command reads, with `cameras`, or with NAME.json beside it. view: a number, "0,2" or
+    "all". size: "WxH". settings: keys of the configuration over those of `config`. fit_memories: as
+    the option, on-chip memories as large as all else needs. out: a folder that keeps pictures and
+    reports.
 
     Raises ValueError for what the command refuses, Failure where a simulation ends badly or a frame
     is not the model's.
@@ -162,9 +163,9 @@ def sweep(
     python3-pandas), else a list of dictionaries with these columns.
 
     points: settings over `settings`, which are over those of `config`; scenes, views, size,
-    fit_memories: as run() has them. cameras: of all scenes that are files or folders. jobs: simulations side by side. results: a file of JSON lines,
-    which keeps what was simulated and of which nothing is simulated again; without it nothing is
-    kept.
+    fit_memories: as run() has them. cameras: of all scenes that are files or folders. jobs:
+    simulations side by side. results: a file of JSON lines, which keeps what was simulated and of
+    which nothing is simulated again; without it nothing is kept.
 
     Raises ValueError for arguments that are none, Failure where the command itself fails.
     """

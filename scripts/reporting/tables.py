@@ -261,7 +261,10 @@ def table_of_views(runs: Sequence[Run]) -> Table:
                     quality(view),
                     number(view["dram"]["bytes"] / 1e6),
                     number(view["dram"]["bus_bytes"] / 1e6),
-                    *(f"{number(of)}{without_memory(view)}" for of in (1e3 * energy["total_j"], energy["mean_power_w"])),
+                    *(
+                        f"{number(of)}{without_memory(view)}"
+                        for of in (1e3 * energy["total_j"], energy["mean_power_w"])
+                    ),
                     number(view["area_mm2"]["total"]),
                     mm2_with_phy(view),
                     view["binding"]["unit"],

@@ -11,7 +11,7 @@ from runs import run_arguments
 from runs.files import read_json
 from runs.scenes import find_scene, find_scenes
 from runs.simulations import MB, MJ, Run, cycles, decibels, joules, mm2, simulate_all
-from studies.datapath import SMALL_SCENE, TECHNOLOGY
+from studies.synthesis import SMALL_SCENE, TECHNOLOGY
 from tables import PRESET, PSNR, Column, Study
 
 SCENE = "truck"

@@ -152,7 +152,8 @@ def make_matched_scenes(arguments: argparse.Namespace) -> None:
 
 
 ABOUT = (
-    "Memory of 25.6 GB/s, of the accelerators. The published rates are means over scenes of 1.1 to 3.3 M Gaussians. "
+    "Memory of 25.6 GB/s, of the accelerators. The published rates are means over scenes of 1.1 to "
+    "3.3 M Gaussians. "
     "`yes` and `no` say whether what is measured matches."
 )
 

@@ -14,7 +14,7 @@ from runs.scenes import find_scene, program_provenance
 from runs.simulations import value_at
 from studies import published
 from studies.compare_machines import COMPARE_MACHINES
-from studies.datapath import STABILITY_TABLE
+from studies.stability import STABILITY_TABLE
 from studies.error_against_time import ERROR_AGAINST_TIME
 from studies.fitting import BOUNDARY_STUDY, TRAINING_CURVES
 from studies.found import FAIR_FIGHT, PRESETS

@@ -16,7 +16,7 @@ from runs import simulations
 from runs.scenes import Failure, Scene
 from studies import error_against_time
 from studies.compare_machines import COMPARE_MACHINES
-from studies.datapath import STABILITY_TABLE
+from studies.stability import STABILITY_TABLE
 from studies.error_against_time import ERROR_AGAINST_TIME
 from studies.fitting import BOUNDARY_STUDY, TRAINING_CURVES
 from studies.frame_costs import BINDING_CHECK, ENERGY, TIMING

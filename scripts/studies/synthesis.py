@@ -1,4 +1,4 @@
-"""Studies of datapaths: numerical error of each formula, and gates of the Verilog."""
+"""The study of the Verilog in gates: each module on each library, scaled to the node of the ledger."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import argparse
 import dataclasses
 import itertools
 import json
-import math
 import pathlib
 import re
 import statistics
@@ -15,141 +14,23 @@ from collections.abc import Mapping, Sequence
 
 import tables
 from runs import run_arguments, simulations
-from runs.scenes import (
-    BINARY,
-    REPOSITORY,
-    Failure,
-    answered,
-    find_scene,
-    program_provenance,
-    shared_folder,
-)
+from runs.scenes import REPOSITORY, Failure, find_scene, program_provenance, shared_folder
 from studies.gates import DELAY, GATED_BITS, NODE_NM, Library, ran, read_library, switched
+from studies.verilog import (
+    CLOCK_GATE,
+    MERGE,
+    MODULES,
+    OF_KNOWN_ENERGY,
+    REGISTER_CLOCK,
+    SELECTION,
+    SORTING,
+    VERILOG,
+    Module,
+    Parts,
+    one,
+)
 from tables import Column, Study
 
-STABILITY = BINARY.with_name("stability")
-
-KINDS = (
-    Column("formula", "what is computed of a Gaussian"),
-    Column("form", "how it is written"),
-    Column("in", "arithmetic"),
-)
-STABILITY_COLUMNS = (
-    *KINDS,
-    Column("over", "axis of the sweep, from its first place to its last"),
-    Column("largest error", "of the places before it breaks", "as in the next column", ".1e"),
-    Column("error of", "what the error is relative to or measured in"),
-    Column("proven at most", "bound of that error; empty: nothing is proven", "", ".1e"),
-    Column("by analysis", "law that the error follows"),
-    Column("breaks at", "place from which on it is wrong altogether"),
-    Column("what breaks, why, what to do", "in words"),
-)
-PLACE_COLUMNS = (
-    *KINDS,
-    Column("axis", "what makes it hard"),
-    Column("unit", "of the error"),
-    Column("place", "on the axis"),
-    Column("error", "largest of the samples"),
-    Column("bound", "that is proven"),
-    Column("error over bound", "largest of the samples"),
-    Column("law", "what the analysis says"),
-)
-
-
-def place_text(place: float) -> str:
-    """A power of ten as such."""
-    power = round(math.log10(place)) if place > 0 else 0
-    if place > 0 and (power > 3 or power < -2) and math.isclose(place, 10.0**power):
-        return f"10^{power}"
-    return f"{place:.4g}"
-
-
-def before_it_breaks(study: dict) -> Sequence[dict]:
-    """The places of a sweep at which it is whole; the first where it never is."""
-    places = study["places"]
-    whole = [p["place"] for p in places].index(study["breaks_at"]) if broken(study) else len(places)
-    return places[: max(whole, 1)]
-
-
-def broken(study: dict) -> bool:
-    return study["breaks_at"] is not None
-
-
-def kind(study: dict) -> tuple:
-    return (study["formula"], study["form"], study["arithmetic"])
-
-
-def stability_row(study: dict) -> tuple:
-    worst = max(before_it_breaks(study), key=lambda place: place["error"] or 0)
-    first, last = study["places"][0]["place"], study["places"][-1]["place"]
-    return (
-        *kind(study),
-        f"{study['axis']} {place_text(first)} .. {place_text(last)}",
-        worst["error"],
-        study["unit"],
-        worst["bound"],
-        study["law"],
-        place_text(study["breaks_at"]) if broken(study) else "nowhere",
-        study["why"],
-    )
-
-
-def place_rows(study: dict) -> list[tuple]:
-    measured = ("place", "error", "bound", "error_over_bound", "law")
-    return [
-        (*kind(study), study["axis"], study["unit"], *(place[key] for key in measured))
-        for place in study["places"]
-    ]
-
-
-def measured_stability(program: pathlib.Path, samples: int, seed: int) -> list[dict]:
-    """Its studies. Raises ValueError when the program refuses or is another one, Failure
-    when it fails."""
-    out = answered(program, f"--samples={samples}", ["--seed", str(seed)], program.name)
-    try:
-        return json.loads(out)["studies"]
-    except (ValueError, KeyError, TypeError) as error:
-        raise ValueError(f"{program}: got no studies, expected those of `stability`") from error
-
-
-def add_stability_arguments(to: run_arguments.Parser) -> None:
-    to.add_argument(
-        "--stability", type=pathlib.Path, default=STABILITY, metavar="PROGRAM", help="that measures"
-    )
-    to.add_argument("--samples", type=int, default=300, help="random cases at each place")
-    to.add_argument("--seed", type=int, default=1, help="of the random cases")
-
-
-def make_stability_table(arguments: argparse.Namespace) -> None:
-    studies = measured_stability(arguments.stability, arguments.samples, arguments.seed)
-    by = tables.made(arguments.stability, [program_provenance(arguments.stability)])
-    tables.write(arguments.out, "stability", by, STABILITY_COLUMNS, map(stability_row, studies))
-    rows = [row for study in studies for row in place_rows(study)]
-    tables.save(arguments.out, "stability_places", by, PLACE_COLUMNS, rows)
-
-
-STABILITY_TABLE = Study(
-    "stability_table",
-    """How far off every formula of one Gaussian is in float and in half, as the units compute it, beside
-100 decimal digits: the program `stability` measured, each row swept along what makes it hard. Makes stability, a line a sweep, and stability_places, with
-every place of every sweep.
-""",
-    ("results.py stability_table",),
-    add_stability_arguments,
-    make_stability_table,
-)
-
-
-def verilog_in(*folders: str) -> tuple[pathlib.Path, ...]:
-    return tuple(
-        source for folder in folders for source in sorted((REPOSITORY / folder).glob("*.v"))
-    )
-
-
-VERILOG = verilog_in("modules/datapath/rtl", "modules/streaminggs/rendering/rtl")
-SELECTION = verilog_in("modules/datapath/rtl/selection")
-SORTING = verilog_in("modules/streaminggs/sorting/rtl")
-MERGE = verilog_in("modules/streaminggs/merge/rtl")
 TECHNOLOGY = REPOSITORY / "testbench" / "cost" / "technology_32nm.json"
 OSU018 = pathlib.Path("/usr/share/qflow/tech/osu018/osu018_stdcells.lib")
 
@@ -169,174 +50,6 @@ SMALL = (
 )
 FAST = "strash; ifraig; scorr; dch -f; map -B 0.9; topo; buffer -c; topo; upsize; dnsize; stime"
 MAPPINGS = {"small": SMALL, "fast": FAST}
-
-
-Parts = tuple[tuple[str, float], ...]  # kinds and how many
-
-
-@dataclasses.dataclass(frozen=True)
-class Module:
-    """top, parameters: in Verilog. charged: parts of the ledger, or the datapath of `exact` that
-    has them beside so many lanes. done: operations in a cycle, if not one of each part. rest: the charged part that has what the others leave of the
-    module. published: what published constants have for it. apart: modules
-    in it that are counted by themselves. interval: cycles that its input `phase` counts. sources:
-    what is read with it; mappers choose by order, so another file there moves a number."""
-
-    name: str
-    top: str
-    charged: Parts | str
-    published: Parts = ()
-    parameters: tuple[str, ...] = ()
-    apart: tuple[str, ...] = ()
-    lanes: int = 0
-    interval: int = 1
-    sources: tuple[pathlib.Path, ...] = VERILOG
-    rest: str = ""
-    done: Parts = ()
-
-
-def one(kind: str) -> Parts:
-    return ((kind, 1),)
-
-
-def choice(levels: int) -> Module:
-    """Of 2^levels words. A word passes a multiplexer on each level."""
-    words = 1 << levels
-    return Module(
-        f"choice of {words} words",
-        "choice",
-        (("select_bit", 32 * (words - 1)), ("register_bit", words)),
-        done=(("select_bit", 32 * levels), ("register_bit", words)),
-        parameters=parameters(WORDS=words, SELECT_BITS=levels),
-        sources=SELECTION,
-    )
-
-
-def parameters(**values: int) -> tuple[str, ...]:
-    return tuple(f"{name} {value}" for name, value in values.items())
-
-
-HALF = parameters(EXPONENT_BITS=5, FRACTION_BITS=10)
-COMPARES = parameters(HAS=3)
-LANE, CHAINS = one("fp32_lane"), one("fp32_chaining_lane")
-LANES = ("lane", "fp32_lane")
-EXCHANGE = (("comparator", 2), ("exchange_bit", 72))
-PUBLISHED_EXCHANGE = (("comparator", 0.5), ("exchange_bit", 32))
-# As modules/streaminggs/heap_ledger.h: keys of 256 bits, nodes of 522.
-HEAP_LEVEL = (
-    ("register_bit", 256 + 522),
-    ("heap_bit", 7 * 256 + (4 + 2 + 1) * 522),
-    ("comparator", 4),
-)
-# The part whose energy is published: a multiplier and an adder. All others are so much of it.
-OF_KNOWN_ENERGY = "fp32 lane that only chains"
-MODULES = (
-    Module("fp32 lane", "fp32_lane", LANE, LANE),
-    Module(OF_KNOWN_ENERGY, "lane", CHAINS, LANE, parameters(UNROUNDED=0)),
-    Module("fp16 lane", "fp16_lane", one("fp16_lane"), one("fp16_lane")),
-    Module("comparator of words", "word_comparator", one("comparator"), one("comparator")),
-    Module(
-        "comparator of numbers",
-        "comparator",
-        one("number_comparator"),
-        one("comparator"),
-        COMPARES,
-    ),
-    Module(
-        "comparator of halves",
-        "comparator",
-        one("half_comparator"),
-        one("comparator"),
-        (*HALF, *COMPARES),
-    ),
-    Module("adder", "comparator", one("adder"), one("comparator"), parameters(HAS=4)),
-    Module("whole number to float", "whole_number", one("conversion"), (("comparator", 2),)),
-    Module("rounding", "rounding", one("rounding"), (("comparator", 3),)),
-    Module("split of 2^t", "exp2_split", one("exp2_split"), (("comparator", 4),)),
-    Module("split of 2^t, half", "exp2_split", one("exp2_split_half"), (("comparator", 4),), HALF),
-    Module("scaling in half", "half_scale", one("half_scale"), one("comparator")),
-    Module("table of 2^t", "exp2_table", one("exp2_table"), one("exp2_table")),
-    Module("table of 2^t, half", "exp2_table_half", one("exp2_table_half"), one("exp2_table_half")),
-    Module("seed of a root", "root_seed", one("seed_table"), one("small_table")),
-    Module("seed of a reciprocal", "reciprocal_seed", one("seed_table"), one("small_table")),
-    Module(
-        "logarithm's table",
-        "logarithm_split",
-        one("logarithm_table"),
-        (("small_table", 1), ("comparator", 1)),
-    ),
-    Module("root of a reach", "reach_table", one("reach_table"), one("small_table")),
-    Module(
-        "32 register bits",
-        "stage",
-        (("register_bit", 32),),
-        (("register_bit", 32),),
-        parameters(WIDTH=32),
-    ),
-    # Inputs of lanes: of a blend, of filters.
-    choice(levels=2),
-    choice(levels=5),
-    # Of the rendering cluster: its lanes have rows of their own.
-    Module("a comparison alone", "less_or_equal", one("number_comparator"), one("comparator")),
-    Module("column of a sub-tile", "subtile_column", ()),
-    Module("line above a row", "row_line", ()),
-    Module(
-        "farther edge of a row",
-        "row_edge",
-        (("number_comparator", 2), ("register_bit", 32), ("select_bit", 32)),
-    ),
-    Module(
-        "pixel of a blend, 4 lanes apart",
-        "pixel_blend",
-        "subtile_blend",
-        apart=LANES,
-        lanes=4,
-        interval=3,
-    ),
-    Module(
-        "blend of a sub-tile, 16 pixels apart",
-        "subtile_blend",
-        (),
-        apart=("pixel_blend",),
-        interval=3,
-    ),
-    Module(
-        "span of a row, 10 lanes apart",
-        "row_span",
-        "row_span",
-        apart=LANES,
-        lanes=10,
-        interval=2,
-    ),
-    Module("dispatcher", "dispatcher", (("adder", 4),)),
-    Module("draining of a group", "drain", ()),
-    # Of the sorting network, which has 80 of them: 64 bits of a key are compared.
-    Module(
-        "compare-exchange of keys, place of 8 bits",
-        "compare_exchange",
-        EXCHANGE,
-        sources=SORTING,
-        rest="exchange_bit",
-    ),
-    Module(
-        "compare-exchange of 16 bits, 16 bits beside",
-        "compare_exchange",
-        PUBLISHED_EXCHANGE,
-        parameters=parameters(KEY_BITS=16, PLACE_BITS=16),
-        sources=SORTING,
-    ),
-    Module(
-        "level of the heap",
-        "heap_level",
-        HEAP_LEVEL,
-        parameters=parameters(LEVEL=4),
-        sources=MERGE,
-        rest="heap_bit",
-    ),
-)
-# Of cells alone: what the clock takes in a cycle, tree and wires with it.
-REGISTER_CLOCK = Module("clock of a register bit", "", one("register_clock"))
-CLOCK_GATE = Module(f"clock gate of {GATED_BITS} register bits", "", one("clock_gate"))
 
 MODULE = Column("module", "in modules/datapath/rtl, or in rtl of a unit in modules/streaminggs")
 SYNTHESIS_COLUMNS = (
@@ -386,9 +99,8 @@ NODE_ABOUT = (
     "Middle: the geometric mean of those mapped to be fast, at 75 %. "
     "Time: the most depth; a FO4 at 32 nm is 11.5 ps, slow 16 ps; a register takes 5. "
     "Energy, settled and with glitches: the library's x 32 nm over its gates' length x the square "
-    "of 0.9 V over its voltage. Operands are new and random in every cycle, but for the words of a choice: they "
-    "stand, and which one is chosen is new. No wires, no layout, "
-    "no clock, but in the last rows: clock pins with a wire to each and buffers. "
+    "of 0.9 V over its voltage. Operands are new and random in every cycle, but for the words of a "
+    "choice: they stand, and which one is chosen is new. No wires, no layout, no clock, but in the last rows: clock pins with a wire to each and buffers. "
     "pJ, low to high: the published energy of a multiplication and an addition times "
     "what the module takes, settled, over what the lane that only chains takes in the same "
     "library. Low: the least. Middle: the geometric mean. High: the most, over what the libraries' "
@@ -686,7 +398,8 @@ def make_synthesis(arguments: argparse.Namespace) -> None:
         for library in libraries:
             mapped += of_clock(library)
     program = arguments.streaminggs
-    by = tables.made(program, [program_provenance(program)], [*VERILOG, *SELECTION, *SORTING, *MERGE, *paths])
+    sources = [*VERILOG, *SELECTION, *SORTING, *MERGE, *paths]
+    by = tables.made(program, [program_provenance(program)], sources)
     tables.write(arguments.out, "synthesis", by, SYNTHESIS_COLUMNS, [each.row() for each in mapped])
     run = simulations.Run(find_scene(SMALL_SCENE), config="exact")
     datapaths = simulations.simulate(program, run).accepted()[0]["datapath"]
