@@ -70,8 +70,7 @@ void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& 
   }
   const Datapath blend = blend_pipeline(part, blending);
   const std::uint32_t state_access =
-      kReadCycles + kWriteCycles +
-      part.write_wait_cycles(kReadCycles + blend.loop_cycles + kWriteCycles);
+      kReadCycles + kWriteCycles + part.write_wait_cycles(loop_cycles_with_accesses(blend));
   resolve_depth("rendering.depth_cycles", rendering.depth_cycles, blend,
                 flows.subtile_blend.longest_path(blending), blending,
                 terms + conic_pipeline(part, single).depth_cycles + state_access, chosen);

@@ -20,6 +20,24 @@ std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / 
 
 bool has_one_port(const RenderingPlan& plan) { return plan.config.pixel_ports == 1; }
 
+// A pixel is read in the first cycle of its loop and written in the last, unless its cluster reads
+// its only port then.
+bool writes_wait(const RenderingPlan& plan, const BuiltFor& built_for) {
+  constexpr std::uint32_t kAccesses = 2;
+  const Datapath blend = blend_pipeline(
+      plan.config, in_16_bits(plan.config.precision) ? built_for.half : built_for.single);
+  const std::uint32_t written = kAccesses + blend.loop_cycles - 1;
+  return has_one_port(plan) && written % plan.config.cluster_interval_cycles() == 0;
+}
+
+// Subtractions that divide up to `most` by the clusters, where that is no shift.
+std::uint64_t division_steps(int most, std::uint32_t clusters) {
+  std::uint32_t power = 1;
+  while (power < clusters) power *= 2;
+  if (power == clusters) return 0;
+  return counter_bits(static_cast<std::uint64_t>(most) / clusters);
+}
+
 // Least cycles to drain a row of pixels: a bank gives one sub-tile a cycle, or with one port is
 // cleared of it, and the pixels that are converted are limited.
 std::uint64_t row_cycles(const RenderingPlan& plan, std::uint64_t width) {
@@ -199,6 +217,12 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   }
   const OperationCounts drained = pixel_flow(plan.job.frame_format).counts();
   const std::uint64_t span_macs = spans * folded_macs(span) + spanned * folded_macs(spans_begin);
+  // Sub-tiles that draining reads, once for each of their rows of pixels.
+  std::uint64_t subtile_rows = 0;
+  for (const PixelRect& px : plan.job.groups) {
+    subtile_rows += ceil_div(static_cast<std::uint64_t>(px.width()), 4) *
+                    static_cast<std::uint64_t>(px.height());
+  }
   // The mask is asked of every row for a splat, and of the row that is held for each cluster.
   const auto rows = static_cast<std::uint64_t>(plan.group.height / 4);
   const auto words = ceil_div(static_cast<std::uint64_t>(plan.group.width / 4), 32);
@@ -215,11 +239,13 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   bench.check_operations("rendering", "comparator", pushed * rows * words + looks * in_loop);
   const bool in_half = in_16_bits(plan.config.precision);
   const auto added = [](const OperationCounts& of) { return of.scalings + of.index_adds; };
-  bench.check_operations("rendering", "adder",
-                         row_cycles * plan.config.clusters * words + pixels * added(drained) +
-                             taken * added(conic) + spans * added(span) +
-                             spanned * added(spans_begin) +
-                             (in_half ? 0 : blends * added(subtile_blend)));
+  bench.check_operations(
+      "rendering", "adder",
+      row_cycles * plan.config.clusters * words +
+          rows_sent * division_steps(2 * (plan.group.height / 4 - 1), plan.config.clusters) +
+          (blends + subtile_rows) * division_steps(plan.group.width / 4 - 1, plan.config.clusters) +
+          pixels * added(drained) + taken * added(conic) + spans * added(span) +
+          spanned * added(spans_begin) + (in_half ? 0 : blends * added(subtile_blend)));
   const std::uint64_t compared = pixels * drained.comparisons + taken * conic.comparisons +
                                  spans * span.comparisons + spanned * spans_begin.comparisons,
                       of_pixels = blends * subtile_blend.comparisons;
@@ -238,10 +264,10 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
     bench.check_operations("rendering", "fp16_lane", blend_macs);
   }
   // The 16 pixels of a sub-tile at once: blended, cleared; read by rows in draining.
-  std::uint64_t reads = 16 * blends, writes = 16 * blends;
+  const std::uint64_t reads = 16 * blends + 4 * subtile_rows;
+  std::uint64_t writes = 16 * blends;
   for (const PixelRect& px : plan.job.groups) {
     const std::uint64_t columns = ceil_div(static_cast<std::uint64_t>(px.width()), 4);
-    reads += 4 * columns * static_cast<std::uint64_t>(px.height());
     writes += 16 * columns * ceil_div(static_cast<std::uint64_t>(px.height()), 4);
   }
   bench.check_accesses("pixel state", reads, writes);
@@ -251,9 +277,10 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   bench.check_accesses("spans", spans, spans);
   bench.check_accesses("splats under way", taken, taken);
   // The splat whose rows go out stands in registers, and the row of pixels that is written next,
-  // and what waits for the only port; a pixel that is drained comes from its place's share of all
-  // memories of pixels.
-  const std::uint64_t late_bits = has_one_port(plan) ? 8 * plan.config.pixel_state_bytes() : 0;
+  // and what waits for the only port, if it does; a pixel that is drained comes from its place's
+  // share of all memories of pixels.
+  const std::uint64_t late_bits =
+      writes_wait(plan, context.built_for) ? 8 * plan.config.pixel_state_bytes() : 0;
   bench.check_operations("rendering", "register_bit",
                          8 * kSplatEntryBytes * taken +
                              8 * pixel_bytes(plan.job.frame_format) * pixels +

@@ -7,6 +7,7 @@
 #include "modules/datapath/rendering_flows.h"
 #include "modules/datapath/selection.h"
 #include "modules/datapath/work_rates.h"
+#include "modules/streaminggs/pipeline_depths.h"
 #include "modules/streaminggs/rendering/rendering_unit.h"
 
 namespace sgs {
@@ -35,6 +36,33 @@ std::uint32_t row_adders(const PixelSize& group, std::uint32_t clusters) {
   constexpr std::uint64_t kAdderBits = 32;
   const auto columns = cycles_for(static_cast<std::uint64_t>(group.width), kSubtilePx);
   return clusters * static_cast<std::uint32_t>(cycles_for(columns, kAdderBits));
+}
+
+// Sub-tiles of a group from left to right, or from top to bottom.
+std::uint64_t subtiles_of(int pixels) {
+  return cycles_for(static_cast<std::uint64_t>(pixels), kSubtilePx);
+}
+
+// Adders that divide a number up to `most` by the clusters: one subtracts for each bit of the
+// quotient. A power of two shifts. x + 2 y says whose a sub-tile is, x where it lies in its bank.
+std::uint32_t division_adders(std::uint64_t most, std::uint32_t clusters) {
+  if ((clusters & (clusters - 1)) == 0) return 0;
+  return counter_bits(most / clusters);
+}
+
+// Of a row that goes out: its first cluster, 2 y.
+std::uint32_t row_division_adders(const PixelSize& group, std::uint32_t clusters) {
+  return division_adders(2 * (subtiles_of(group.height) - 1), clusters);
+}
+
+// Of a sub-tile, in its row.
+std::uint32_t subtile_division_adders(const PixelSize& group, std::uint32_t clusters) {
+  return division_adders(subtiles_of(group.width) - 1, clusters);
+}
+
+// Sub-tiles of a row that finished pixels come from at once.
+std::uint64_t drained_at_once(const RenderingConfig& config) {
+  return cycles_for(config.drain_pixels_per_cycle, kSubtilePx);
 }
 
 // A memory for each place of a pixel in a sub-tile, in each cluster: a blend reads and writes all
@@ -143,6 +171,12 @@ void RenderingUnit::publish_dispatcher(DataSheet& sheet) {
                        of_loop * static_cast<double>(looks));
   sheet.part("rendering", "adder", of_row, 1);
   sheet.operations("rendering", "adder", of_row * static_cast<double>(clusters.row_cycles));
+  const double of_first = row_division_adders(built_for_.group, config_.clusters);
+  const double of_subtile = subtile_division_adders(built_for_.group, config_.clusters);
+  sheet.part("rendering", "adder", of_first + config_.clusters * of_subtile, 1);
+  sheet.operations("rendering", "adder",
+                   of_first * static_cast<double>(clusters.rows) +
+                       of_subtile * static_cast<double>(clusters.subtile_blends));
   const std::uint64_t bits = mask_bits(built_for_.group);
   sheet.accesses("finished sub-tiles",
                  bits * (dropped + counters_.splats_taken + clusters.row_cycles),
@@ -163,7 +197,9 @@ void RenderingUnit::publish_pixels(DataSheet& sheet) {
     pixels += width * height;
   }
   const std::uint64_t blends = schedule_.counters().subtile_blends;
-  if (config_.ports_of_pixels() == SramPorts::kOne) {
+  const Datapath blend =
+      blend_pipeline(config_, in_16_bits(config_.precision) ? built_for_.half : built_for_.single);
+  if (config_.write_wait_cycles(loop_cycles_with_accesses(blend)) > 0) {
     // A pixel's new state waits for the port.
     const double bits = 8.0 * config_.pixel_state_bytes();
     sheet.part("rendering", "register_bit", bits * pixel_banks(config_, built_for_.group), 1);
@@ -175,6 +211,9 @@ void RenderingUnit::publish_pixels(DataSheet& sheet) {
                     {drain_sources(config_, built_for_.group), 8.0 * config_.pixel_state_bytes(),
                      static_cast<double>(config_.drain_pixels_per_cycle)},
                     passed);
+  const double of_drained = subtile_division_adders(built_for_.group, config_.clusters);
+  sheet.part("rendering", "adder", of_drained * static_cast<double>(drained_at_once(config_)), 1);
+  sheet.operations("rendering", "adder", of_drained * static_cast<double>(drained));
   // The row of converted pixels that is written next.
   const double bits_of_pixel = 8.0 * pixel_bytes(job_.frame_format);
   sheet.part("rendering", "register_bit", built_for_.group.width * bits_of_pixel, 1);
