@@ -214,8 +214,7 @@ def make_power(arguments: argparse.Namespace) -> None:
                 sides += least < 1 < most
                 apart += others_alone.low < ours_alone.high
     about += (
-        " The memory refreshes itself between frames, at the high ends it is in power-down: there "
-        "a display reads it too. "
+        " The memory refreshes itself between frames, at the high ends it is in power-down. "
         f"Within the band {sides} of {len(rows)} rows change sides; were the sources' errors each "
         f"machine's own, {apart} would."
     )

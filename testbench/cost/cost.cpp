@@ -143,11 +143,12 @@ void add_leakage(CostResult& energy, const MachineResult& machine, double second
   add(energy, "sram_leakage", kMw * seconds * sram_leakage_mw(machine, technology));
 }
 
-// Power of PHY and controller that stand for a share of the time.
+// Power of PHY and controller that stand for a share of the time. High: they never stand.
 Band interface_w(const FrameResult& frame, double stands, const Technology& technology) {
   const MemoryInterfaceCost& interface = technology.memory_interface;
-  const Band channel_mw =
+  Band channel_mw =
       (1 - stands) * interface.mw + stands * (interface.mm2 * technology.die.logic_leakage_mw_mm2);
+  channel_mw.high = std::max(channel_mw.high, interface.mw.high);
   return kMw * (priced_channels(frame, technology) * channel_mw +
                 technology.sram.leakage_mw(write_queues(frame, technology)));
 }
@@ -243,9 +244,7 @@ CostResult energy_between(const FrameResult& from, const FrameResult& until,
 }
 
 Band resting_interface_w(const FrameResult& frame, const Rest& rest, const Technology& technology) {
-  Band w = interface_w(frame, rest.self_refresh(), technology);
-  w.high = std::max(w.high, interface_w(frame, 0, technology).high);
-  return w;
+  return interface_w(frame, rest.self_refresh(), technology);
 }
 
 CostResult rest_energy_of(const FrameResult& frame, const Rest& rest, double seconds,

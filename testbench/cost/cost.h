@@ -56,7 +56,7 @@ CostResult energy_between(const FrameResult& from, const FrameResult& until,
 
 // Power of PHY and controller between frames, whether the table counts them or not: while the
 // memory refreshes itself their clocks stand and they leak as logic does; else as in a frame. High:
-// as in a frame all the time.
+// as in a frame all the time, as in every time that they are counted for.
 Band resting_interface_w(const FrameResult& frame, const Rest& rest, const Technology& technology);
 
 // Joules between a frame and the next one, in which the machine's clock stands: leakage

@@ -7,19 +7,35 @@
 namespace sgs {
 namespace {
 
-Rest rest_up_to_power_down(const DramConfig& dram, double seconds) {
+std::uint64_t cycles_in(const Memspec& memspec, double seconds) {
   constexpr double kNs = 1e-9;
+  return static_cast<std::uint64_t>(seconds / (kNs * memspec.clock_period_ns));
+}
+
+double most_pj_of_power_down(DramConfig dram, const Memspec& memspec, std::uint64_t cycles) {
+  dram.between_frames = BetweenFrames::kPowerDown;
+  return rest_of(dram, memspec, cycles).energy.most_pj;
+}
+
+Rest rest_up_to_power_down(const DramConfig& dram, double seconds) {
   const Memspec memspec = load_memspec(dram.memspec);
-  const auto cycles = static_cast<std::uint64_t>(seconds / (kNs * memspec.clock_period_ns));
-  DramConfig power_down = dram;
-  power_down.between_frames = BetweenFrames::kPowerDown;
+  const std::uint64_t cycles = cycles_in(memspec, seconds);
   Rest rest = rest_of(dram, memspec, cycles);
-  rest.energy.most_pj =
-      std::max(rest.energy.most_pj, rest_of(power_down, memspec, cycles).energy.most_pj);
+  rest.energy.most_pj = std::max(rest.energy.most_pj, most_pj_of_power_down(dram, memspec, cycles));
   return rest;
 }
 
 }  // namespace
+
+double power_down_j(const DramConfig& dram, double seconds) {
+  const Memspec memspec = load_memspec(dram.memspec);
+  const std::uint64_t cycles = cycles_in(memspec, seconds);
+  DramConfig refreshing = dram;
+  refreshing.between_frames = BetweenFrames::kSelfRefresh;
+  constexpr double kJ = 1e-12;  // in a pJ
+  return kJ * std::max(0.0, most_pj_of_power_down(dram, memspec, cycles) -
+                                rest_of(refreshing, memspec, cycles).energy.most_pj);
+}
 
 FixedRate at_rate(double per_s, const FrameResult& frame, const DramConfig& dram,
                   const Technology& technology) {

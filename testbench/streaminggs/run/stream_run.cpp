@@ -78,14 +78,15 @@ void print_flow(const StreamFlow& flow, bool memory_known) {
              rounded(1e-6 * static_cast<double>(flow.bytes) / frames), rounded(flow.power_w()),
              memory_known ? ", the memory: " : " without the memory\n");
   if (!memory_known) return;
-  std::string states;
+  std::string states, high_end;
   for (const MemoryState& state : flow.states) {
     if (state.time_s == 0) continue;
     states += fmt::format("{}{} {} % of the time, {} W", states.empty() ? "" : "; ", state.name,
                           rounded(100 * state.time_s / flow.time_s),
                           rounded(state.energy_j / flow.time_s));
+    if (state.name == kSelfRefreshState) high_end = "; at the band's high end in power-down";
   }
-  fmt::print("{}\n", states);
+  fmt::print("{}{}\n", states, high_end);
 }
 
 void print_frames(const StreamReport& stream) {
@@ -142,8 +143,10 @@ int run_stream(const PathJob& job, RunSetting& setting, const ResultFolder& out,
   account(all, config.dram, setting.technology);
   LeftOutCollector left_out(all.left_out);
   list_left_out(scene.stored, all.run.machine, left_out);
-  StreamReport stream{
-      job.name, summarise(all.run, job.frame_rate), flow_of(all.run, setting.technology), {}};
+  StreamReport stream{job.name,
+                      summarise(all.run, job.frame_rate),
+                      flow_of(all.run, config.dram, setting.technology),
+                      {}};
   Judge judge(scene, config, left_out);
   ContactSheet sheet(job.frames.size());
   bool all_equal = true;

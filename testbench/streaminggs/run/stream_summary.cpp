@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "testbench/cost/fixed_rate.h"
+
 namespace sgs {
 namespace {
 
@@ -65,7 +67,23 @@ StreamSummary summarise(const FrameResult& run, double rate) {
   return out;
 }
 
-StreamFlow flow_of(const FrameResult& run, const Technology& technology) {
+namespace {
+
+// The memory's band ends all in power-down.
+void end_in_power_down(StreamFlow& flow, const DramConfig& dram) {
+  double self_refresh_s = 0;
+  for (const MemoryState& state : flow.states) {
+    if (state.name == kSelfRefreshState) self_refresh_s += state.time_s;
+  }
+  for (auto& [component, joules] : flow.energy_j.by_component) {
+    if (component != "dram" || self_refresh_s == 0) continue;
+    const double more = power_down_j(dram, self_refresh_s);
+    joules.high += more;
+    flow.energy_j.total.high += more;
+  }
+}
+
+StreamFlow simulated_flow(const FrameResult& run, const Technology& technology) {
   const std::vector<FrameResult>& shown = run.stream.first_and_last_shown;
   StreamFlow flow;
   const FrameResult& end = shown.empty() ? run : shown.back();
@@ -92,6 +110,14 @@ StreamFlow flow_of(const FrameResult& run, const Technology& technology) {
   for (std::size_t c = 0; c < flow.commands.size(); ++c) {
     flow.commands[c].second -= begin.memory.commands[c].second;
   }
+  return flow;
+}
+
+}  // namespace
+
+StreamFlow flow_of(const FrameResult& run, const DramConfig& dram, const Technology& technology) {
+  StreamFlow flow = simulated_flow(run, technology);
+  end_in_power_down(flow, dram);
   return flow;
 }
 

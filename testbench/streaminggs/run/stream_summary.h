@@ -59,6 +59,7 @@ struct StreamFlow {
   Band power_w() const { return 1 / time_s * energy_j.total; }
 };
 
-StreamFlow flow_of(const FrameResult& run, const Technology& technology);
+// dram: of the run's simulation. High: the memory is in power-down where it refreshed itself.
+StreamFlow flow_of(const FrameResult& run, const DramConfig& dram, const Technology& technology);
 
 }  // namespace sgs

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
+#include "testbench/cost/fixed_rate.h"
+
 namespace sgs::test {
 namespace {
 
@@ -76,7 +78,7 @@ TEST_CASE("stream: its flow is what lies between the first frame's picture and t
   FrameResult run = at(50000, 30000, 9);
   run.stream.frames.resize(4);
   run.stream.first_and_last_shown = {at(10000, 5000, 1), at(40000, 25000, 7)};
-  const StreamFlow flow = flow_of(run, technology);
+  const StreamFlow flow = flow_of(run, DramConfig(), technology);
   CHECK(flow.time_s == Approx(30e-6));
   CHECK(flow.frames == 3);
   CHECK(flow.bytes == 300000);
@@ -97,9 +99,20 @@ TEST_CASE("stream: its flow is what lies between the first frame's picture and t
   CHECK(clock == Approx(1e-12 * (30000 * bits * technology.part(kRegisterClock).pj.middle +
                                  10000 * kGates * bits * technology.part(kClockGate).pj.middle)));
   CHECK(flow.power_w().middle == Approx(flow.energy_j.total.middle / 30e-6));
+  // In power-down the memory takes more, at the high end alone.
+  const Band awake = flow.energy_j.total;
+  for (FrameResult& shown : run.stream.first_and_last_shown) {
+    shown.memory.states.push_back({kSelfRefreshState, 0.5 * shown.time_s(), 0});
+  }
+  const Band resting = flow_of(run, DramConfig(), technology).energy_j.total;
+  const double more_j = power_down_j(DramConfig(), 15e-6);
+  CHECK(more_j > 0);
+  CHECK(resting.high == Approx(awake.high + more_j));
+  CHECK(resting.middle == awake.middle);
+  CHECK(resting.low == awake.low);
   run.stream.first_and_last_shown.clear();
-  CHECK(flow_of(run, technology).frames == 4);
-  CHECK(flow_of(run, technology).time_s == Approx(50e-6));
+  CHECK(flow_of(run, DramConfig(), technology).frames == 4);
+  CHECK(flow_of(run, DramConfig(), technology).time_s == Approx(50e-6));
 }
 
 }  // namespace
