@@ -69,8 +69,8 @@ def shown_rows(folder: pathlib.Path, of: Question) -> str:
 
 def readme(folder: pathlib.Path) -> str:
     text = (
-        "# Results\n\n`scripts/results.py --pages` writes this file from the tables beside it. It also "
-        "writes `out/results.html`, which has every row of every table.\n"
+        "# Results\n\n`scripts/results.py --pages` writes this file from the tables beside it, and "
+        "`out/results.html` with every row. Findings hold for their tables' scenes and sizes.\n"
     )
     for of in questions(folder):
         made = made_sentence(facts_of(folder, of.table))
