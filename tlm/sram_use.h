@@ -36,7 +36,7 @@ constexpr SramPeak kOneOfEach{1, 1};
 // Banks of at most so many rows are flip-flops, not SRAM: shorter than the row of words that a
 // macro's periphery is worth. It is a rule of shape, so that what a configuration may hold does not
 // hang on prices; the technology table's middle values put the boundary there too.
-constexpr std::uint32_t register_rows(SramPorts ports) { return ports == SramPorts::kOne ? 5 : 7; }
+constexpr std::uint32_t register_rows(SramPorts ports) { return ports == SramPorts::kOne ? 4 : 9; }
 
 // One use of one of the on-chip memories, as often as it is there.
 struct SramUse {

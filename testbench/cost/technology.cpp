@@ -41,12 +41,12 @@ using Json = nlohmann::ordered_json;
 
 // Throws InputError unless `stated` has each number of the table: what it lacks would cost nothing.
 // A clock may stay untold.
-// Published points of the SRAM formula and published parts are in no cost. at: path of the keys.
+// Published memories and parts are in no cost. at: path of the keys.
 void check_stated(const Json& table, const std::string& at, const std::set<std::string>& stated,
                   const std::string& path) {
   for (const auto& [key, value] : table.items()) {
     const std::string place = at.empty() ? key : at + "." + key;
-    const bool in_no_cost = place == "sram.points" || place == "published";
+    const bool in_no_cost = place == "sram.points" || place == "sram.pairs" || place == "published";
     if (in_no_cost || place == "clock_mhz" || key == "source") continue;
     if (value.is_object()) {
       check_stated(value, place, stated, path);
@@ -85,12 +85,12 @@ void check_rows(const Technology& technology, const Json& shipped) {
   for (const std::string& kind : kinds) technology.part(kind);
 }
 
-// A line about published constants and points that are not the shipped table's; empty: none.
+// A line about published constants and memories that are not the shipped table's; empty: none.
 // The order of their keys says nothing.
 std::string note_on_published(const nlohmann::json& given, const nlohmann::json& shipped,
                               const std::string& path) {
   std::vector<std::string> changed;
-  for (const std::string section : {"published", "sram.points"}) {
+  for (const std::string section : {"published", "sram.points", "sram.pairs"}) {
     std::string pointer = "/" + section;
     std::replace(pointer.begin(), pointer.end(), '.', '/');
     const nlohmann::json::json_pointer at(pointer);
@@ -118,8 +118,9 @@ void check_bands(const Json& json, const std::string& at, const std::string& pat
 
 }  // namespace
 
-double SramModel::bare_um2(double bits, double width_bits, double port_count) const {
-  return bits * (um2_bit + um2_bit_port * (port_count - 1)) + width_bits * um2_width;
+Band SramModel::bare_um2(double bits, double width_bits, double port_count) const {
+  const double one_port = bits * um2_bit + width_bits * um2_width;
+  return one_port * (port_count == 2 ? second_port : Band{1, 1, 1});
 }
 
 double SramModel::bare_read_pj(double bits, double width_bits) const {
@@ -161,15 +162,24 @@ void visit(ConfigVisitor& v, SramPoint& p) {
   v("source", p.source, "where the numbers are from");
 }
 
+void visit(ConfigVisitor& v, SramPair& p) {
+  const ConfigRange um2 = in_range(1e-6, 1e12);
+  v("bits", p.bits, in_range(1, 1e12), "capacity");
+  v("width_bits", p.width_bits, in_range(1, 1e6), "of an access");
+  v("one_um2", p.one_um2, um2, "area with one port, as published");
+  v("two_um2", p.two_um2, um2, "area with two");
+  v("source", p.source, "where the numbers are from, and what the ports do");
+}
+
 void visit(ConfigVisitor& v, SramModel& m) {
   const ConfigRange range = in_range(0, 1e6);
   v("um2_bit", m.um2_bit, range, "area of a bit");
-  v("um2_bit_port", m.um2_bit_port, range, "more of it for a second port");
   v("um2_width", m.um2_width, range, "area of a bit of width");
   v("pj_width", m.pj_width, range, "energy of a bit accessed");
   v("pj_cell", m.pj_cell, range, "the same, times the root of the bits of a bank");
   v("pj_decode", m.pj_decode, range, "energy of an access, times the root of the bits of a bank");
   v("least_rows", m.least_rows, range, "of a macro");
+  v.section("second_port", m.second_port, "area with two ports over that with one");
   v.section("um2_register", m.um2_register, "area of a bit kept in registers, on a die");
   v.section("macro", m.macro, "area of a macro over that of the formula");
   v.section("placed", m.placed, "area on a die over that of the macro");
@@ -178,6 +188,7 @@ void visit(ConfigVisitor& v, SramModel& m) {
   v.section("leakage_mw_kib", m.leakage_mw_kib, "milliwatts that a KiB leaks");
   v("source", m.source, "where the numbers are from, and how sure they are");
   v.sections("points", m.points, "published memories that the formula is fitted to");
+  v.sections("pairs", m.pairs, "published memories with one port and with two");
 }
 
 const PartCost& Technology::part(const std::string& kind) const {

@@ -53,17 +53,26 @@ struct SramPoint {
   std::string source;
 };
 
+// A pair of published memories of one source, node and size: with one port, and with two. The
+// source says what the ports do.
+struct SramPair {
+  double bits = 0, width_bits = 0;
+  double one_um2 = 0, two_um2 = 0;
+  std::string source;
+};
+
 // Area and energy of one bank with C bits, W of them accessed at once, and P ports:
-//   um2 = C (um2_bit + um2_bit_port (P - 1)) + W um2_width
+//   um2 = (C um2_bit + W um2_width) second_port^(P - 1)
 //   pJ of a read = W (pj_width + pj_cell sqrt(C)) + pj_decode sqrt(C)
 // sqrt(C) stands for the length of word lines, bit lines and the way there. The points are at most
 // 256 bits wide; a wider bank is made of macros of at most so many, side by side. None has fewer
 // than least_rows rows: a shorter bank is a macro of so many, or registers where its use says so.
 struct SramModel {
-  double um2_bit = 0, um2_bit_port = 0, um2_width = 0;
+  double um2_bit = 0, um2_width = 0;
   double pj_width = 0, pj_cell = 0, pj_decode = 0;
   double least_rows = 0;
   Band um2_register;   // one bit in registers with its share of what reads them, on a die
+  Band second_port;    // area with two ports over that with one
   Band macro;          // area of a macro over that of the formula
   Band placed;         // area on a die over that of the bare macro
   Band access;         // energy over that of the formula
@@ -71,10 +80,11 @@ struct SramModel {
   Band leakage_mw_kib;
   std::string source;
   std::map<std::string, SramPoint> points;
+  std::map<std::string, SramPair> pairs;
 
   static constexpr std::uint32_t kMacroBits = 256;
 
-  double bare_um2(double bits, double width_bits, double ports) const;
+  Band bare_um2(double bits, double width_bits, double ports) const;
   double bare_read_pj(double bits, double width_bits) const;
 
   // Area of all banks of the use, on the die. An access of registers is charged as one of the macro
@@ -86,6 +96,7 @@ struct SramModel {
 };
 
 void visit(ConfigVisitor& v, SramPoint& point);
+void visit(ConfigVisitor& v, SramPair& pair);
 void visit(ConfigVisitor& v, SramModel& model);
 
 // A part of logic, and one operation that it does. An operation clocks each of its register bits

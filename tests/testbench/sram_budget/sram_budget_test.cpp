@@ -181,8 +181,8 @@ TEST_CASE("sram budget: banks of few rows are registers and take nothing of it")
     std::uint64_t taken;
   };
   for (const Row& row :
-       {Row{SramPorts::kOne, 40, 0}, Row{SramPorts::kOne, 41, 41},
-        Row{SramPorts::kReadAndWrite, 56, 0}, Row{SramPorts::kReadAndWrite, 57, 57}}) {
+       {Row{SramPorts::kOne, 32, 0}, Row{SramPorts::kOne, 33, 33},
+        Row{SramPorts::kReadAndWrite, 72, 0}, Row{SramPorts::kReadAndWrite, 73, 73}}) {
     INFO(row.bytes);
     const SramUse use =
         sram_use("words", "scratch", {{row.bytes, "B"}}, {32, row.ports, 2}, kOneOfEach);
