@@ -1,6 +1,7 @@
 // Counts and schedules.
 #include "modules/gscore/gscore_datapaths.h"
 
+#include <algorithm>
 #include <map>
 #include <tuple>
 #include <vector>
@@ -54,13 +55,49 @@ FlowPart blend_flow(const GscoreConfig& config) {
   return rendering_flows(config.rendering.precision).blend_from_corner;
 }
 
-// Cycles from the beginning of one block of pixels to that of the next.
-std::uint64_t blend_interval(const GscoreConfig& config) {
-  const std::uint32_t lanes = config.rendering.core_lanes;
-  return lanes == 0 ? 1 : cycles_for(folded_macs(blend_flow(config).counts()), lanes);
+// Of 16 pixels; what it hangs on changes their number.
+std::uint32_t blend_macs(const GscoreConfig& config) {
+  static std::map<std::pair<BlendPrecision, NumberFormat>, std::uint32_t> known;
+  const auto [at, is_new] = known.try_emplace({config.rendering.precision, config.tiles.features});
+  if (is_new) at->second = folded_macs(blend_flow(config).counts());
+  return at->second;
 }
 
+// Lanes of a core that also convert finished pixels, in whichever format.
+std::uint32_t lanes_that_drain(const GscoreConfig& config) {
+  static const std::uint32_t macs = folded_macs(pixel_flow(FrameFormat::kRgb8).counts());
+  return config.rendering.drain_pixels_per_cycle * macs;
+}
+constexpr std::uint32_t kOperandBits = 3 * kSingleBits;  // of a lane
+
 }  // namespace
+
+std::uint64_t blend_interval(const GscoreConfig& config) {
+  const std::uint32_t lanes = config.rendering.core_lanes;
+  return lanes == 0 ? 1 : cycles_for(blend_macs(config), lanes);
+}
+
+bool shares_pixel_memories(const GscoreConfig& config) {
+  return config.rendering.pixel_buffers > 1 && blend_interval(config) > 1;
+}
+
+SramPorts ports_of_pixels(const GscoreConfig& config) {
+  const bool one = config.rendering.pixel_buffers == 1 && blend_interval(config) > 1;
+  return one ? SramPorts::kOne : SramPorts::kReadAndWrite;
+}
+
+bool drains_on_lanes(const GscoreConfig& config) {
+  return config.rendering.pixel_buffers == 1 && !in_16_bits(config.rendering.precision) &&
+         (config.rendering.core_lanes == 0 ||
+          lanes_that_drain(config) <= config.rendering.core_lanes);
+}
+
+std::uint64_t drain_row_cycles(const GscoreConfig& config, std::uint32_t px) {
+  const std::uint64_t at_once = cycles_for(px, config.rendering.drain_pixels_per_cycle);
+  if (shares_pixel_memories(config)) return at_once * blend_interval(config);
+  const std::uint64_t accesses = ports_of_pixels(config) == SramPorts::kOne ? 2 : 1;
+  return std::max(at_once, accesses * cycles_for(px, kSubtilePx));
+}
 
 Datapath chunk_test_pipeline(const GscoreConfig& config) {
   return counted("chunk_test", "culler", chunk_culling_flow(longest_chunk_case(config.eyes)),
@@ -138,10 +175,18 @@ Datapath blend_pipeline(const GscoreConfig& config) {
   path.lanes = config.rendering.core_lanes > 0 ? config.rendering.core_lanes : path.used_macs;
   schedule(path, flow.steps(config.blending()), config.blending(),
            in_half ? kHalfBits : kSingleBits);
+  if (drains_on_lanes(config)) {
+    // Before the operands of a lane that also converts pixels.
+    const std::uint32_t lanes = lanes_that_drain(config);
+    path.between.multiplexers += kOperandBits * lanes;
+    path.between.selected += kOperandBits * static_cast<std::uint32_t>(cycles_for(
+                                                std::uint64_t{path.used_macs} * lanes, path.lanes));
+  }
   return path;
 }
 
-// Colour and transmittance of pixels in halves are widened first.
+// Colour and transmittance of pixels in halves are widened first. Lanes of their own have a turn as
+// long as the blend's where pixels come once in that.
 Datapath drain_pipeline(const GscoreConfig& config) {
   const FlowPart flow = pixel_flow(config.framebuffer);
   Datapath path = counted_datapath("drain", "rendering", flow.counts());
@@ -149,9 +194,14 @@ Datapath drain_pipeline(const GscoreConfig& config) {
   if (in_16_bits(config.rendering.precision)) {
     path.part_of("conversion").operations += kOfPixel;
   }
-  path.lanes = path.used_macs;
+  const std::uint64_t turn = shares_pixel_memories(config) ? blend_interval(config) : 1;
+  path.lanes = static_cast<std::uint32_t>(cycles_for(path.used_macs, turn));
   path.copies = config.rendering.drain_pixels_per_cycle;
   schedule(path, flow.steps(config.single()), config.single());
+  if (drains_on_lanes(config)) {
+    path.lanes_of = "blend";
+    path.between.selected += kOperandBits * path.used_macs;
+  }
   return path;
 }
 

@@ -1,6 +1,7 @@
 // The lanes of the tile-centric machine, counted by running the code and scheduled.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "modules/gscore/gscore_config.h"
@@ -28,5 +29,17 @@ std::optional<Datapath> conic_pipeline(const GscoreConfig& config);
 Datapath corner_pipeline(const GscoreConfig& config);
 Datapath blend_pipeline(const GscoreConfig& config);
 Datapath drain_pipeline(const GscoreConfig& config);
+
+// Cycles of a turn: from the beginning of one block of pixels to that of the next.
+std::uint64_t blend_interval(const GscoreConfig& config);
+// Where a turn has several cycles, blends read in one of them and write in one. In another one each
+// the tile before is read and cleared: its pixels lie in the same memories, of two ports. With one
+// buffer nothing is drained meanwhile: one port does, in different cycles, and the lanes of
+// blending convert finished pixels, in single precision.
+bool shares_pixel_memories(const GscoreConfig& config);
+SramPorts ports_of_pixels(const GscoreConfig& config);
+bool drains_on_lanes(const GscoreConfig& config);
+// Cycles from a row of so many finished pixels of a tile to the next. A row lies in four memories.
+std::uint64_t drain_row_cycles(const GscoreConfig& config, std::uint32_t px);
 
 }  // namespace sgs::gscore

@@ -101,12 +101,17 @@ Bits bits_of(const Plan& plan, const GscoreJob& job) {
   return out;
 }
 
-// Each row of a tile by itself.
+// Each row of a tile by itself: a turn of the lanes for each of its pixels that are read at once
+// where tiles share memories; with one port a pixel is cleared in a cycle of its own.
 std::uint64_t drain_cycles(const Plan& plan) {
+  const std::uint64_t turn = blend_pipeline(plan.config).interval_cycles();
+  const bool shared = plan.config.rendering.pixel_buffers == 2;
   std::uint64_t cycles_of_row = 0;
   for (int x = 0; x < plan.width_px; x += kTilePx) {
     const auto width = static_cast<std::uint64_t>(std::min(kTilePx, plan.width_px - x));
-    cycles_of_row += cycles_for(width, plan.config.rendering.drain_pixels_per_cycle);
+    const std::uint64_t at_once = cycles_for(width, plan.config.rendering.drain_pixels_per_cycle);
+    const std::uint64_t of_port = turn > 1 ? 2 * cycles_for(width, 4) : 0;
+    cycles_of_row += shared ? turn * at_once : std::max(at_once, of_port);
   }
   return cycles_of_row * static_cast<std::uint64_t>(plan.height_px);
 }

@@ -26,9 +26,13 @@ std::uint32_t state_bytes(const GscoreConfig& config) {
   return in_16_bits(config.rendering.precision) ? 8 : 16;
 }
 
-// A memory for each place of a pixel among 16, in each buffer: a blend reads and writes 16 at once.
+// Memories of one place of a pixel.
+std::uint32_t memories_of_place(const GscoreConfig& config) {
+  return shares_pixel_memories(config) ? 1 : config.rendering.pixel_buffers;
+}
+// A blend reads and writes 16 pixels at once, each in the memory of its place.
 std::uint32_t pixel_banks(const GscoreConfig& config) {
-  return kSubtilePixels * config.rendering.pixel_buffers;
+  return kSubtilePixels * memories_of_place(config);
 }
 
 std::uint32_t parts_of(const GscoreConfig& config) {
@@ -243,7 +247,7 @@ void RenderCore::write_tile(const GroupState& state, const Picture& picture) {
   const auto width = static_cast<std::uint32_t>(pixels.width());
   const std::uint32_t bytes = pixel_bytes(job_.frame_format);
   std::vector<std::byte> row(std::size_t{width} * bytes);
-  const std::uint64_t row_cycles = cycles_for(width, config_.rendering.drain_pixels_per_cycle);
+  const std::uint64_t row_cycles = drain_row_cycles(config_, width);
   RowWriter rows(pixel_memory, drain_);
   for (int y = pixels.y0; y < pixels.y1; ++y) {
     for (int x = pixels.x0; x < pixels.x1; ++x) {
@@ -259,16 +263,16 @@ void RenderCore::write_tile(const GroupState& state, const Picture& picture) {
 }
 
 SramUses RenderCore::sram_uses(const GscoreConfig& c) {
-  const std::uint32_t banks = pixel_banks(c);
+  const std::uint32_t banks = pixel_banks(c), buffers = c.rendering.pixel_buffers;
+  const SramPorts ports = ports_of_pixels(c);
   SramUses uses = {
       sram_use(kRecordSlots, kBuffer,
                {{c.rendering.record_slots, "slots"}, {record_bytes(c.tiles.features), "B"}},
                {8 * record_bytes(c.tiles.features)}, kOneOfEach),
       fifo_use<Fetched>(kFetchedEntries, kBuffer, c.rendering.record_slots + 1, "entries",
                         SortedEntry::sram_bytes(c.entries())),
-      sram_use(kPixels, kBuffer,
-               {{c.rendering.pixel_buffers, "tiles"}, {kTilePixels, "px"}, {state_bytes(c), "B"}},
-               {8 * state_bytes(c), SramPorts::kReadAndWrite, banks}, {banks, banks}),
+      sram_use(kPixels, kBuffer, {{buffers, "tiles"}, {kTilePixels, "px"}, {state_bytes(c), "B"}},
+               {8 * state_bytes(c), ports, banks}, {banks, ports == SramPorts::kOne ? 0 : banks}),
       sram_use(kMask, kBuffer, {{parts_of(c), "parts"}, {1, "B"}}, {8 * parts_of(c)}, kOneOfEach),
       unanswered_writes(kPixelWrites, kBuffer, c.memory_port,
                         kTilePx * pixel_bytes(c.framebuffer))};
@@ -301,12 +305,12 @@ void RenderCore::publish(DataSheet& sheet) {
   sheet.operations("rendering", "register_bit",
                    static_cast<double>(n.blocks) * static_cast<double>(loop + 1 + next_bits));
   // Each place among the pixels converted at once meets so many of a block's four columns, in any
-  // row and in each buffer.
+  // row.
   const std::uint32_t at_once = config_.rendering.drain_pixels_per_cycle;
   const std::uint32_t columns = kSubtilePx / std::gcd(kSubtilePx, at_once);
   publish_selection(sheet, "rendering",
-                    {columns * kSubtilePx * config_.rendering.pixel_buffers,
-                     8.0 * state_bytes(config_), static_cast<double>(at_once)},
+                    {columns * kSubtilePx * memories_of_place(config_), 8.0 * state_bytes(config_),
+                     static_cast<double>(at_once)},
                     static_cast<double>(n.pixels));
   // The row of pixels that the drain fills while those before it are unanswered.
   const double bits_of_pixel = 8.0 * pixel_bytes(config_.framebuffer);

@@ -80,7 +80,7 @@ class RenderCore : public sc_core::sc_module {
   bool in_tile_ = false;
   std::vector<std::uint64_t> free_from_;      // [16 px] cycle
   std::vector<std::uint64_t> finished_from_;  // [16 px] cycle
-  std::uint32_t tile_ = 0;                    // for the waveform too
+  std::uint32_t tile_ = 0;  // for the waveform too
 
   struct Counters : CounterSet {
     Counter tiles{*this, "tiles", "tiles", "rendered"};

@@ -15,6 +15,7 @@ constexpr const char *kStages = "list blocks", *kLists = "lists on chip",
                      *kSubsetEnds = "subsets in memory", *kSubsetsOnChip = "subsets on chip",
                      *kChunk = "chunk", *kSubsetWrites = "subset writes", *kLoaded = "loaded lists";
 constexpr std::uint32_t kPlaceBytes = 2;    // place of an entry in a list
+constexpr std::uint32_t kPlaceLists = 2;    // a level of subsets, and the one above
 constexpr std::uint32_t kLoadedBytes = 16;  // tile, count, keys
 
 // Each QSU compares with the pivots, the least and the greatest key, and counts.
@@ -158,34 +159,37 @@ void TileSorter::emit(std::uint32_t tile, const std::vector<TileEntry>& entries,
 SramUses TileSorter::sram_uses(const GscoreConfig& c) {
   const BlockFormat blocks = c.blocks();
   constexpr auto kPorts = SramPorts::kReadAndWrite;
-  const std::uint32_t key_bits = compared_bits(c), levels = most_levels(c.tiles.keys);
-  return {sram_use(kStages, kBuffer, {{kStageBlocks, "blocks"}, {blocks.block_bytes(), "B"}},
-                   {8 * kPortBytes}, kOneOfEach),
-          // 16 entries go to the network at once.
-          sram_use(kLists, kBuffer,
-                   {{c.sorting.list_buffers, "lists"},
-                    {c.sorting.list_entries, "entries"},
-                    {blocks.entry.bytes(), "B"}},
-                   {8 * blocks.entry.bytes(), kPorts, kNetworkWidth}, {kNetworkWidth, 1}),
-          sram_use(kPlaces, kBuffer,
-                   {{2, "lists"}, {c.sorting.list_entries, "keys"}, {key_bits / 8, "B"}},
-                   {key_bits, kPorts, kNetworkWidth}, {kNetworkWidth, 1}),
-          sram_use(kSubsetLines, kBuffer, {{kSubsets, "subsets"}, {blocks.line_bytes, "B"}},
-                   {8 * kLineWordBytes, kPorts, kLineBanks}, {kLineBanks, kLineBanks}),
-          sram_use(kSubsetEnds, kBuffer,
-                   {{levels, "levels"}, {kSubsets, "subsets"}, {subset_in_memory_bytes(c), "B"}},
-                   {8 * subset_in_memory_bytes(c)}, kOneOfEach),
-          sram_use(kSubsetsOnChip, kBuffer,
-                   {{levels, "levels"}, {kSubsets, "subsets"}, {subset_bytes(c), "B"}},
-                   {8 * subset_bytes(c)}, kOneOfEach),
-          // Merging goes from one list to the other: 8 are read and at most 16 written at once.
-          sram_use(kChunk, kBuffer,
-                   {{2, "lists"}, {c.sorting.chunk_entries, "keys"}, {key_bits / 8, "B"}},
-                   {key_bits, kPorts, kNetworkWidth}, {kMergeWidth, kNetworkWidth}),
-          sram_use(kLoaded, kBuffer, {{c.sorting.list_buffers + 2, "lists"}, {kLoadedBytes, "B"}},
-                   {8 * kLoadedBytes}, kOneOfEach),
-          outstanding_table(kBuffer, c.memory_port),
-          unanswered_writes(kSubsetWrites, kBuffer, c.memory_port, blocks.line_bytes)};
+  const std::uint32_t key_bits = compared_bits(c), levels = most_levels(c.tiles.keys),
+                      lists = c.sorting.list_buffers;
+  return {
+      sram_use(kStages, kBuffer, {{kStageBlocks, "blocks"}, {blocks.block_bytes(), "B"}},
+               {8 * kPortBytes}, kOneOfEach),
+      // 16 entries go to the network at once. A list is written whole before it is read, so that
+      // banks of its own need one port.
+      sram_use(kLists, kBuffer,
+               {{lists, "lists"}, {c.sorting.list_entries, "entries"}, {blocks.entry.bytes(), "B"}},
+               {8 * blocks.entry.bytes(), SramPorts::kOne, lists * kNetworkWidth},
+               {kNetworkWidth, lists > 1 ? 1U : 0U}),
+      // Splitting reads subsets of one list and writes those of the other.
+      sram_use(kPlaces, kBuffer,
+               {{kPlaceLists, "lists"}, {c.sorting.list_entries, "keys"}, {key_bits / 8, "B"}},
+               {key_bits, SramPorts::kOne, kPlaceLists * kNetworkWidth}, {kNetworkWidth, 1}),
+      sram_use(kSubsetLines, kBuffer, {{kSubsets, "subsets"}, {blocks.line_bytes, "B"}},
+               {8 * kLineWordBytes, kPorts, kLineBanks}, {kLineBanks, kLineBanks}),
+      sram_use(kSubsetEnds, kBuffer,
+               {{levels, "levels"}, {kSubsets, "subsets"}, {subset_in_memory_bytes(c), "B"}},
+               {8 * subset_in_memory_bytes(c)}, kOneOfEach),
+      sram_use(kSubsetsOnChip, kBuffer,
+               {{levels, "levels"}, {kSubsets, "subsets"}, {subset_bytes(c), "B"}},
+               {8 * subset_bytes(c)}, kOneOfEach),
+      // Merging goes from one list to the other: 8 are read and at most 16 written at once.
+      sram_use(kChunk, kBuffer,
+               {{2, "lists"}, {c.sorting.chunk_entries, "keys"}, {key_bits / 8, "B"}},
+               {key_bits, kPorts, kNetworkWidth}, {kMergeWidth, kNetworkWidth}),
+      sram_use(kLoaded, kBuffer, {{c.sorting.list_buffers + 2, "lists"}, {kLoadedBytes, "B"}},
+               {8 * kLoadedBytes}, kOneOfEach),
+      outstanding_table(kBuffer, c.memory_port),
+      unanswered_writes(kSubsetWrites, kBuffer, c.memory_port, blocks.line_bytes)};
 }
 
 void TileSorter::publish(DataSheet& sheet) {

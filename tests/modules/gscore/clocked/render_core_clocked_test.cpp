@@ -71,7 +71,7 @@ Takings clocked_render_core(const CoreWorkload& load, std::uint64_t seed) {
   frame.layout = tb::empty_layout(static_cast<std::uint32_t>(plan.records.size()));
   add_regions(config, frame);
   const GscoreJob job = gscore_job(config, frame);
-  ClockedRenderCore unit(scheduled(load, config), tiles_of(job));
+  ClockedRenderCore unit(scheduled(load, config), tiles_of(job, load.hardware));
   ClockedFifo<CoreItem> sorted(load.sorted_entries);
   ClockedSource<CoreItem> source(items_of(plan, config, job),
                                  {seed, load.in_one_in, load.in_longest});
@@ -98,6 +98,8 @@ TEST_CASE("clocked reference: rendering core") {
   const CoreHardware slow_writes =
       changed(published, [](CoreHardware& h) { h.port.config.max_writes = 1; });
   const CoreHardware few_lanes = changed(published, [](CoreHardware& h) { h.blend_interval = 3; });
+  const CoreHardware few_lanes_one_buffer =
+      changed(few_lanes, [](CoreHardware& h) { h.pixel_buffers = 1; });
   const CoreHardware fine_parts = changed(published, [](CoreHardware& h) { h.parts_across = 4; });
   const CoreHardware whole = changed(published, [](CoreHardware& h) { h.parts_across = 1; });
   const CoreHardware all_blended =
@@ -112,6 +114,8 @@ TEST_CASE("clocked reference: rendering core") {
            CoreWorkload{"a write at a time", 20, 0.3F, false, slow_writes},
            CoreWorkload{"tiny buffers", 30, 1, false, tiny, 4, 20, 1},
            CoreWorkload{"16 px every 3 cycles", 200, 1, false, few_lanes},
+           CoreWorkload{"16 px every 3 cycles, one tile", 200, 1, false, few_lanes_one_buffer},
+           CoreWorkload{"light: 16 px every 3 cycles", 4, 0.3F, false, few_lanes},
            CoreWorkload{"16 parts", 200, 1, false, fine_parts},
            CoreWorkload{"tiles without parts", 200, 1, true, whole},
            CoreWorkload{"finished parts blended too", 300, 1, false, all_blended},

@@ -88,7 +88,14 @@ inline CorePlan plan_of(const CoreWorkload& load, const GscoreConfig& config, st
   return plan;
 }
 
-inline std::vector<CoreTile> tiles_of(const GscoreJob& job) {
+// A row of pixels comes out of its memories a pixel a cycle; a pixel a turn of the lanes where the
+// next tile is blended in these, too; with one port each pixel is cleared in a cycle of its own.
+inline std::uint32_t row_cycles_of(const CoreHardware& hw, std::uint32_t px) {
+  if (hw.blend_interval == 1) return px;
+  return hw.pixel_buffers > 1 ? hw.blend_interval * px : std::max(px, 2 * ((px + 3) / 4));
+}
+
+inline std::vector<CoreTile> tiles_of(const GscoreJob& job, const CoreHardware& hw) {
   std::vector<CoreTile> tiles;
   for (std::uint32_t t = 0; t < job.tile_count; ++t) {
     const PixelRect pixels = job.pixels(t);
@@ -97,10 +104,11 @@ inline std::vector<CoreTile> tiles_of(const GscoreJob& job) {
       const int x = static_cast<int>(block) % 4 * 4, y = static_cast<int>(block) / 4 * 4;
       tile.outside |= x >= pixels.width() || y >= pixels.height() ? 1U << block : 0;
     }
-    tile.row_cycles = static_cast<std::uint32_t>(pixels.width());
+    const auto width = static_cast<std::uint32_t>(pixels.width());
+    tile.row_cycles = row_cycles_of(hw, width);
     for (int y = pixels.y0; y < pixels.y1; ++y) {
-      tile.rows.push_back({job.pixel_address(pixels.x0, y),
-                           std::uint64_t{tile.row_cycles} * pixel_bytes(job.frame_format)});
+      tile.rows.push_back(
+          {job.pixel_address(pixels.x0, y), std::uint64_t{width} * pixel_bytes(job.frame_format)});
     }
     tiles.push_back(tile);
   }
