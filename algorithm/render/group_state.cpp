@@ -59,6 +59,17 @@ std::uint64_t GroupState::contributors() const {
   return sum;
 }
 
+std::uint64_t GroupState::finished_pixels() const {
+  std::uint64_t sum = 0;
+  for (int y = pixels_.y0; y < pixels_.y1; ++y) {
+    for (int x = pixels_.x0; x < pixels_.x1; ++x) {
+      int lane = 0;
+      sum += subtile_of(x, y, lane).active[lane] == 0 ? 1 : 0;
+    }
+  }
+  return sum;
+}
+
 void GroupState::store(const glm::vec3& background, RenderResult& frame) const {
   for (int y = pixels_.y0; y < pixels_.y1; ++y) {
     for (int x = pixels_.x0; x < pixels_.x1; ++x) {

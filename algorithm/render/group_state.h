@@ -110,6 +110,7 @@ class GroupState {
   const PixelRect& pixels() const { return pixels_; }
   glm::vec3 colour(int x, int y, const glm::vec3& background) const;  // C + T background
   std::uint64_t contributors() const;
+  std::uint64_t finished_pixels() const;  // of the frame
 
   // Copies the group into a whole frame.
   void store(const glm::vec3& background, RenderResult& frame) const;

@@ -156,6 +156,16 @@ FlowPart blend_of_halves_flow() {
   return {flow, 0, flow->size(), state.pixels()};
 }
 
+void ask_where_alpha_passes(Datapath& blend, std::uint32_t value_bits) {
+  constexpr std::uint32_t kColours = 3;
+  const std::uint32_t waiting = (kSubtilePixels + kColours) * value_bits + kSubtilePixels;
+  blend.between.registers += waiting;
+  blend.between.written += waiting;
+  blend.between.multiplexers += kSubtilePixels;
+  blend.between.selected += kSubtilePixels;
+  ++blend.depth_cycles;
+}
+
 FlowPart conic_terms_flow() {
   constexpr std::size_t kBeside = 5;  // words: centre, opacity and colour as halves, footprint
   const auto flow = std::make_shared<DataFlow>();

@@ -6,6 +6,7 @@
 #include "algorithm/memory/frame_buffer.h"
 #include "algorithm/splat/blend.h"
 #include "modules/datapath/lane_steps.h"
+#include "tlm/datapath.h"
 
 namespace sgs {
 
@@ -34,6 +35,11 @@ FlowPart conic_terms_flow();
 
 // Such a splat for blending in single: its conic's terms come back, and log2(e) into them.
 FlowPart terms_of_square_flow();
+
+// Memories of pixels are asked only for those that are not finished and whose alpha passes. For
+// that the alpha of all pixels and the splat's colour wait a cycle. What a blend has finished goes
+// past the memory of finished pixels to a blend that asks meanwhile. value_bits: of a number.
+void ask_where_alpha_passes(Datapath& blend, std::uint32_t value_bits);
 
 // Operations on a finished pixel on its way to the frame: the background through the light that is
 // left, then its bytes.

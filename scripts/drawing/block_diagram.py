@@ -64,8 +64,8 @@ BLOCKS = (
     Block(
         *("rendering", "blends", ("subtile_blend", "conic", "spans_begin", "row_span", "drain")),
         (
-            *("pixel state", "splats under way", "begun spans", "spans", "cluster queues"),
-            *("sub-tiles in the loop", "pixel writes"),
+            *("pixel state", "finished pixels", "splats under way", "begun spans", "spans"),
+            *("cluster queues", "sub-tiles in the loop", "pixel writes"),
         ),
         *("", "pixels"),
         writes=True,

@@ -70,7 +70,7 @@ struct Expected {
   std::uint64_t splats = 0, splats_spanned = 0, spans = 0, contributors = 0;
   std::uint64_t functional_blends = 0;  // into unfinished sub-tiles
   std::uint64_t subtiles_finished = 0, rows = 0, begun_span_reads = 0;
-  std::uint64_t drain_cycles = 0;
+  std::uint64_t drain_cycles = 0, finished_pixels = 0;
   std::vector<bool> saturated;  // [group]
 };
 
@@ -105,6 +105,7 @@ Expected expect(const RenderingPlan& plan) {
     ++out.groups;
     out.groups_saturated += state.saturated() ? 1 : 0;
     out.contributors += state.contributors();
+    out.finished_pixels += state.finished_pixels();
     out.saturated.push_back(state.saturated());
     out.drain_cycles += static_cast<std::uint64_t>(pixels.height()) *
                             row_cycles(plan, static_cast<std::uint64_t>(pixels.width())) +
@@ -263,14 +264,16 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
     bench.check_operations("rendering", "half_comparator", of_pixels);
     bench.check_operations("rendering", "fp16_lane", blend_macs);
   }
-  // The 16 pixels of a sub-tile at once: blended, cleared; read by rows in draining.
-  const std::uint64_t reads = 16 * blends + 4 * subtile_rows;
-  std::uint64_t writes = 16 * blends;
+  // Blended where alpha passes, the last time without a write; the 16 pixels of a sub-tile cleared
+  // at once, read by rows in draining.
+  std::uint64_t reads = expected.contributors + expected.finished_pixels, cleared = 0;
   for (const PixelRect& px : plan.job.groups) {
     const std::uint64_t columns = ceil_div(static_cast<std::uint64_t>(px.width()), 4);
-    writes += 16 * columns * ceil_div(static_cast<std::uint64_t>(px.height()), 4);
+    reads += 4 * columns * static_cast<std::uint64_t>(px.height());
+    cleared += columns * ceil_div(static_cast<std::uint64_t>(px.height()), 4);
   }
-  bench.check_accesses("pixel state", reads, writes);
+  bench.check_accesses("pixel state", reads, expected.contributors + 16 * cleared);
+  bench.check_accesses("finished pixels", blends, blends + cleared);
   bench.check_accesses("sub-tiles in the loop", looks, blends);
   bench.check_accesses("cluster queues", blends, blends);
   checks.equal(bench.accesses("begun spans").second, spanned, "begun spans: writes");

@@ -52,7 +52,7 @@ Plan make_plan(const GscoreConfig& config, std::mt19937_64& random, int width_px
 
 struct Expected {
   std::vector<std::byte> frame;
-  std::uint64_t contributors = 0, finished = 0;
+  std::uint64_t contributors = 0, finished = 0, finished_pixels = 0;
 };
 
 Expected expect(const Plan& plan, const GscoreJob& job) {
@@ -74,6 +74,7 @@ Expected expect(const Plan& plan, const GscoreJob& job) {
     state.store(job.background, frame);
     out.contributors += state.contributors();
     out.finished += state.saturated() ? 1 : 0;
+    out.finished_pixels += state.finished_pixels();
   }
   out.frame = encode_frame(plan.config.framebuffer, frame.image);
   return out;
@@ -182,7 +183,9 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan, bool no_ha
   bench.check_counter("pixels", pixels);
   bench.check_accesses("records", fetched, fetched);
   bench.check_accesses("finished parts", splats, splats);
-  bench.check_accesses("pixel state", 16 * blocks + pixels, 16 * blocks + pixels);
+  bench.check_accesses("pixel state", expected.contributors + expected.finished_pixels + pixels,
+                       expected.contributors + pixels);
+  bench.check_accesses("finished pixels", blocks, blocks + 16 * plan.tiles.size());
   // A cycle for what is fetched or dropped, each tile's end and the frame's.
   checks.equal(bench.busy_cycles("record fetch"), entries + plan.tiles.size() + 1,
                "cycles of fetching");

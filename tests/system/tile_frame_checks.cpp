@@ -202,12 +202,19 @@ void check_sorting_accesses(const Json& view) {
   CHECK(loaded.writes >= of("tiles") + good_passes(view) * count(view["config"]["cores"]));
 }
 
-// Of rendering: 16 pixels a block; each pixel is cleared as it is drained.
+// Of rendering: pixels where alpha passes, the last time without a write; each is cleared as it is
+// drained.
 void check_rendering_accesses(const Json& view) {
   const auto of = [&](const char* name) { return counter_of_all(view, "rendering", name); };
   CHECK(accesses(view, "records") == both(of("records")));
   CHECK(accesses(view, "finished parts") == both(of("splats")));
-  CHECK(accesses(view, "pixel state") == both(16 * of("blocks") + of("pixels")));
+  const auto [reads, writes] = accesses(view, "pixel state");
+  CHECK(writes == of("contributors") + of("pixels"));
+  CHECK(reads >= writes);
+  CHECK(reads <= writes + of("pixels"));
+  CHECK(of("contributors") <= 16 * of("blocks"));
+  CHECK(accesses(view, "finished pixels").reads == of("blocks"));
+  CHECK(accesses(view, "finished pixels").writes == of("blocks") + 16 * of("tiles"));
 }
 
 // Savings that more than one unit may know of, and those that are differences.

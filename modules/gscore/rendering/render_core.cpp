@@ -16,10 +16,11 @@ namespace {
 
 constexpr const char *kRecordSlots = "records", *kFetchedEntries = "fetched entries",
                      *kPixels = "pixel state", *kPixelWrites = "pixel writes",
-                     *kMask = "finished parts";
+                     *kMask = "finished parts", *kFinishedPixels = "finished pixels";
 constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint32_t kReadCycles = 1, kWriteCycles = 1;
 constexpr std::uint32_t kTilePixels = kTilePx * kTilePx;
+constexpr std::uint32_t kFinishedBytes = kSubtilePixels / 8;  // of a block, a bit a pixel
 
 // R, G, B and transmittance.
 std::uint32_t state_bytes(const GscoreConfig& config) {
@@ -140,6 +141,7 @@ void RenderCore::run_blend() {
     ++counters_.tiles;
     counters_.tiles_finished += state_->saturated() ? 1 : 0;
     counters_.contributors += state_->contributors();
+    finished_pixels_ += state_->finished_pixels();
     in_tile_ = false;
     finished_states_.push({mark, std::move(state_), next.entry.tile}, blend_);
     blend_.work(1);
@@ -273,6 +275,11 @@ SramUses RenderCore::sram_uses(const GscoreConfig& c) {
                         SortedEntry::sram_bytes(c.entries())),
       sram_use(kPixels, kBuffer, {{buffers, "tiles"}, {kTilePixels, "px"}, {state_bytes(c), "B"}},
                {8 * state_bytes(c), ports, banks}, {banks, ports == SramPorts::kOne ? 0 : banks}),
+      // Read a cycle ahead of the pixels that are not finished.
+      sram_use(kFinishedPixels, kBuffer,
+               {{buffers, "tiles"}, {kBlocks, "blocks"}, {kFinishedBytes, "B"}},
+               {8 * kFinishedBytes, SramPorts::kReadAndWrite, memories_of_place(c)},
+               {1, memories_of_place(c)}),
       sram_use(kMask, kBuffer, {{parts_of(c), "parts"}, {1, "B"}}, {8 * parts_of(c)}, kOneOfEach),
       unanswered_writes(kPixelWrites, kBuffer, c.memory_port,
                         kTilePx * pixel_bytes(c.framebuffer))};
@@ -293,8 +300,10 @@ void RenderCore::publish(DataSheet& sheet) {
   sheet.datapath(drain_path_, n.pixels);
   sheet.sram(sram_uses(config_));
   sheet.accesses(kRecordSlots, n.splats + n.dropped_fetched, n.records);
-  sheet.accesses(kPixels, kSubtilePixels * n.blocks + n.pixels,
-                 kSubtilePixels * n.blocks + n.pixels);
+  // A blend reads the unfinished pixels whose alpha passes, and writes those that it does not
+  // finish; draining reads and clears all.
+  sheet.accesses(kPixels, n.contributors + finished_pixels_ + n.pixels, n.contributors + n.pixels);
+  sheet.accesses(kFinishedPixels, n.blocks, n.blocks + kBlocks * n.tiles);
   sheet.accesses(kMask, n.splats, n.splats);
   // For each block: a counter of cycles until a splat leaves the loop through its pixels, set when
   // the splat begins; and whether all are finished. For the splat: which of its parts and blocks is

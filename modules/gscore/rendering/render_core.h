@@ -80,6 +80,7 @@ class RenderCore : public sc_core::sc_module {
   bool in_tile_ = false;
   std::vector<std::uint64_t> free_from_;      // [16 px] cycle
   std::vector<std::uint64_t> finished_from_;  // [16 px] cycle
+  std::uint64_t finished_pixels_ = 0;
   std::uint32_t tile_ = 0;  // for the waveform too
 
   struct Counters : CounterSet {

@@ -81,6 +81,7 @@ Datapath blend_pipeline(const RenderingConfig& config, const OperationLatencies&
   path.copies = config.clusters;
   schedule(path, counted(config.precision).flows.subtile_blend.steps(latencies), latencies,
            in_half ? kHalfBits : kSingleBits);
+  ask_where_alpha_passes(path, in_half ? kHalfBits : kSingleBits);
   if (config.drains_on_clusters()) {
     // Before the operands of a lane that also converts pixels.
     const auto lanes =

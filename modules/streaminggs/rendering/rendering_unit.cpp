@@ -57,6 +57,7 @@ void RenderingUnit::run_blend() {
     ++counters_.groups;
     counters_.groups_saturated += state->saturated() && !state->pixels().empty() ? 1 : 0;
     counters_.contributors += state->contributors();
+    finished_pixels_ += state->finished_pixels();
     work_until(schedule_.all_done());
     finished_.push(std::move(state), blend_);
     const std::uint64_t now = blend_.clock().now_cycles();

@@ -90,7 +90,8 @@ class RenderingUnit : public sc_core::sc_module {
   sc_core::sc_event drained_one_;
   Counters counters_;
   std::vector<std::uint64_t> cycles_of_groups_;  // from the end of the one before
-  std::uint32_t current_group_ = 0;              // for the waveform
+  std::uint64_t finished_pixels_ = 0;
+  std::uint32_t current_group_ = 0;  // for the waveform
 };
 
 }  // namespace sgs

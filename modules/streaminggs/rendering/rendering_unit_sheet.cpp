@@ -14,7 +14,8 @@ namespace sgs {
 namespace {
 
 constexpr std::uint32_t kSubtileNumberBytes = 2;
-constexpr const char* kBegunSpans = "begun spans";
+constexpr std::uint32_t kFinishedBytes = kSubtilePixels / 8;  // of a sub-tile, a bit a pixel
+constexpr const char *kBegunSpans = "begun spans", *kFinishedPixels = "finished pixels";
 constexpr std::uint32_t kBegunSpanBytes = 4 * kBegunSpanWords;
 
 // Spans: the first and the last sub-tile of each row that a splat reaches, or none. Rows that leave
@@ -65,14 +66,20 @@ std::uint64_t drained_at_once(const RenderingConfig& config) {
   return cycles_for(config.drain_pixels_per_cycle, kSubtilePx);
 }
 
-// A memory for each place of a pixel in a sub-tile, in each cluster: a blend reads and writes all
-// 16 of a sub-tile at once, each its pixel. A group that drains and one that is blended have
-// memories of their own. A cluster without a sub-tile of any group has none.
+std::uint32_t subtiles_of(const PixelSize& group) {
+  return static_cast<std::uint32_t>(subtiles_of(group.width) * subtiles_of(group.height));
+}
+
+// A group that drains and one that is blended have memories of their own, in each cluster that has
+// a sub-tile of any group.
+std::uint32_t cluster_banks(const RenderingConfig& config, const PixelSize& group) {
+  return std::clamp(subtiles_of(group), 1U, config.clusters) * config.pixel_buffers;
+}
+
+// One for each place of a pixel in a sub-tile: a blend reads and writes all 16 of a sub-tile at
+// once, each its pixel.
 std::uint32_t pixel_banks(const RenderingConfig& config, const PixelSize& group) {
-  const auto subtiles =
-      static_cast<std::uint32_t>(cycles_for(static_cast<std::uint64_t>(group.width), kSubtilePx) *
-                                 cycles_for(static_cast<std::uint64_t>(group.height), kSubtilePx));
-  return kSubtilePixels * std::clamp(subtiles, 1U, config.clusters) * config.pixel_buffers;
+  return kSubtilePixels * cluster_banks(config, group);
 }
 
 // Memories that one of the pixels which are converted at once may come from: those of the clusters
@@ -94,11 +101,11 @@ std::uint64_t drain_sources(const RenderingConfig& config, const PixelSize& grou
 
 }  // namespace
 
-// A pixel is known to be finished only when it has been read, so all pixels of a sub-tile are read.
 SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor& built_for) {
   const auto width = static_cast<std::uint32_t>(built_for.group.width);
   const auto height = static_cast<std::uint32_t>(built_for.group.height);
   const std::uint32_t banks = pixel_banks(config, built_for.group);
+  const std::uint32_t finished_banks = cluster_banks(config, built_for.group);
   const std::uint32_t writes_beside = config.ports_of_pixels() == SramPorts::kOne ? 0 : banks;
   const SramPeak of_clusters{config.clusters, config.clusters};
   return {sram_use("pixel state", kSharedSram,
@@ -108,6 +115,13 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
                     {config.pixel_state_bytes(), "B"}},
                    {8 * config.pixel_state_bytes(), config.ports_of_pixels(), banks},
                    {banks, writes_beside}),
+          // Read a cycle ahead of the pixels that are not finished.
+          sram_use(kFinishedPixels, kSharedSram,
+                   {{config.pixel_buffers, "groups"},
+                    {std::max(subtiles_of(built_for.group), 1U), "sub-tiles"},
+                    {kFinishedBytes, "B"}},
+                   {8 * kFinishedBytes, SramPorts::kReadAndWrite, finished_banks},
+                   {finished_banks, finished_banks}),
           sram_use("splats under way", kSharedSram,
                    {{config.span_slots, "slots"}, {kSplatEntryBytes, "B"}}, {8 * kSplatEntryBytes},
                    kOneOfEach),
@@ -119,8 +133,7 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
                     {config.cluster_queue_entries, "splats"},
                     {kSplatEntryBytes, "B"}},
                    {8 * kSplatEntryBytes, SramPorts::kReadAndWrite, config.clusters}, of_clusters),
-          mask_use(built_for.group),
-          outstanding_table(kSharedSram, built_for.memory_port),
+          mask_use(built_for.group), outstanding_table(kSharedSram, built_for.memory_port),
           sram_use("sub-tiles in the loop", kSharedSram,
                    {{config.clusters, "clusters"},
                     {config.subtiles_in_loop(), "sub-tiles"},
@@ -184,8 +197,8 @@ void RenderingUnit::publish_dispatcher(DataSheet& sheet) {
   sheet.accesses("sub-tiles in the loop", looks, clusters.subtile_blends);
 }
 
-// Each blend reads and writes a sub-tile. Draining reads it once for each row of pixels, and clears
-// it.
+// Of a sub-tile each blend reads the unfinished pixels whose alpha passes, and writes those that it
+// does not finish. Draining reads it once for each row of pixels, and clears it.
 void RenderingUnit::publish_pixels(DataSheet& sheet) {
   std::uint64_t drained = 0, cleared = 0, pixels = 0;
   for (std::uint64_t group = 0; group < counters_.groups; ++group) {
@@ -219,9 +232,11 @@ void RenderingUnit::publish_pixels(DataSheet& sheet) {
   sheet.part("rendering", "register_bit", built_for_.group.width * bits_of_pixel, 1);
   sheet.operations("rendering", "register_bit", bits_of_pixel * passed);
   sheet.datapath(drain_pipeline(config_, job_.frame_format, built_for_.single), pixels);
-  // A blend reads and writes all places of a sub-tile, draining those of a row, clearing all again.
-  sheet.accesses("pixel state", kSubtilePixels * blends + kSubtilePx * drained,
-                 kSubtilePixels * (blends + cleared));
+  // Draining reads the places of a row, clearing writes all.
+  const std::uint64_t blended = counters_.contributors;
+  sheet.accesses("pixel state", blended + finished_pixels_ + kSubtilePx * drained,
+                 blended + kSubtilePixels * cleared);
+  sheet.accesses(kFinishedPixels, blends, blends + cleared);
 }
 
 void RenderingUnit::publish(DataSheet& sheet) {
