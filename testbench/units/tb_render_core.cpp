@@ -192,13 +192,17 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan, bool no_ha
   const std::uint64_t blending =
       blocks * interval + bench.counter("hazard_cycles") + late + plan.tiles.size() + 1;
   checks.that(bench.busy_cycles("rendering") >= blending, "cycles of rendering at least");
-  // One more for a splat of finished parts; behind any splat, until the lanes' next turn.
-  checks.that(bench.busy_cycles("rendering") <= blending + skipped + (interval - 1) * splats,
+  // One more for a splat of finished parts; behind any splat, until the lanes' next turn, and until
+  // those of conics have theirs.
+  const std::optional<Datapath> conic = conic_pipeline(plan.config);
+  const std::uint64_t pace = interval - 1 + (conic ? conic->interval_cycles() : 0);
+  checks.that(bench.busy_cycles("rendering") <= blending + skipped + pace * splats,
               "cycles of rendering at most");
   checks.equal(bench.busy_cycles("drain"), drain_cycles(plan) + 1, "cycles of draining");
   const std::uint64_t parts =
       std::uint64_t(plan.config.tiles.subtiles_across) * plan.config.tiles.subtiles_across;
-  checks.equal(blocks * parts, 16 * bench.counter("parts"), "blocks of 16 px");
+  checks.equal((blocks + bench.counter("blocks_finished")) * parts, 16 * bench.counter("parts"),
+               "blocks of 16 px");
   if (!no_hazards) return;
   bench.check_counter("hazard_cycles", 0);
   checks.equal(bench.busy_cycles("rendering"), blocks * interval + plan.tiles.size() + 1,

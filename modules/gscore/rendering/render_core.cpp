@@ -191,15 +191,21 @@ void RenderCore::blend(const SortedEntry& entry, const AnySplat& splat) {
   const std::uint64_t loop = blend_path_.loop_cycles + kReadCycles + kWriteCycles;
   const std::uint64_t depth = depth_cycles();
   std::uint64_t begin = now;
+  const auto left_out = [&](std::uint64_t known) {
+    return known <= now && (config_.rendering.skip_finished || known == 0);
+  };
   for_each_part(rules, job_.tile_x(entry.tile), job_.tile_y(entry.tile), entry.bitmap, splat,
                 [&](const AnySplat& in_part, int part) {
-                  const std::uint64_t known = finished_from(part);
-                  if (known <= now && (config_.rendering.skip_finished || known == 0)) {
+                  if (left_out(finished_from(part))) {
                     ++counters_.parts_finished;
                     return;
                   }
                   ++counters_.parts;
                   for_each_block(part, rules, [&](std::size_t at) {
+                    if (left_out(finished_from_[at])) {
+                      ++counters_.blocks_finished;
+                      return;
+                    }
                     const std::uint64_t free = next_turn(std::max(begin, free_from_[at]), interval);
                     counters_.hazard_cycles += free - begin;
                     free_from_[at] = free + loop;
@@ -215,7 +221,9 @@ void RenderCore::blend(const SortedEntry& entry, const AnySplat& splat) {
   if (state_->saturated()) {
     finished_.finish(entry.tile, *std::max_element(finished_from_.begin(), finished_from_.end()));
   }
-  blend_.work(std::max<std::uint64_t>(begin - now, 1));
+  // The conic's lanes keep the pace of whole parts.
+  const std::uint64_t least = begin > now && conic_path_ ? conic_path_->interval_cycles() : 1;
+  blend_.work(std::max(begin - now, least));
 }
 
 std::uint64_t RenderCore::finished_from(int part) const {

@@ -96,6 +96,8 @@ class RenderCore : public sc_core::sc_module {
     Counter parts_finished{*this, "parts_finished", "parts",
                            "that were finished or outside the frame"};
     Counter blocks{*this, "blocks", "blocks", "of 16 px, one for each VRU"};
+    Counter blocks_finished{*this, "blocks_finished", "blocks",
+                            "of blended parts, that were finished or outside the frame"};
     Counter hazard_cycles{*this, "hazard_cycles", "cycles",
                           "waiting for the splat ahead on the same pixels"};
     Counter contributors{*this, "contributors", "pixels", "blended with an alpha above 1/255"};

@@ -17,6 +17,7 @@ namespace sgs::test {
 struct CoreHardware {
   std::uint32_t parts_across = 2, record_slots = 48, pixel_buffers = 2;
   std::uint32_t blend_interval = 1;  // of 16 pixels
+  std::uint32_t conic_interval = 1;  // of a splat that is blended
   std::uint32_t depth = 0, state_loop = 0, drain_depth = 0;
   bool skip_finished = true;
   std::uint32_t feedback = 2;
@@ -114,7 +115,7 @@ class ClockedRenderCore {
       issue();
       return;
     }
-    if (now_ < lanes_free_) return;
+    if (now_ < lanes_free_ || now_ < conic_free_) return;
     free_records_ += holds_record_ ? 1 : 0;
     holds_record_ = false;
     if (fetched_.can_take()) take(fetched_.front());
@@ -142,24 +143,22 @@ class ClockedRenderCore {
     }
     fetched_.take();
     lanes_free_ = now_ + 1;
-    if (!to_blend_.empty()) issue();
+    if (to_blend_.empty()) return;
+    conic_free_ = now_ + hw_.conic_interval;
+    issue();
   }
-  // Those of the parts that have a bit and are not finished now.
+  // Those that are not finished now, of the parts that have a bit.
   void list_blocks() {
     const std::uint32_t side = kAcross / hw_.parts_across;
     for (std::uint32_t part = 0; part < hw_.parts_across * hw_.parts_across; ++part) {
       if (!has(splat_.parts, part)) continue;
       const std::uint32_t first =
           part / hw_.parts_across * side * kAcross + part % hw_.parts_across * side;
-      std::vector<std::uint32_t> blocks;
-      std::uint32_t bits = 0;
-      for (std::uint32_t b = 0; b < side * side; ++b) {
-        blocks.push_back(first + b / side * kAcross + b % side);
-        bits |= 1U << blocks.back();
-      }
       const std::uint32_t left_out = hw_.skip_finished ? finished_ : tiles_[tile_].outside;
-      if ((bits & ~left_out) == 0) continue;
-      to_blend_.insert(to_blend_.end(), blocks.begin(), blocks.end());
+      for (std::uint32_t b = 0; b < side * side; ++b) {
+        const std::uint32_t block = first + b / side * kAcross + b % side;
+        if (!has(left_out, block)) to_blend_.push_back(block);
+      }
     }
   }
   void issue() {
@@ -187,7 +186,7 @@ class ClockedRenderCore {
   std::vector<std::uint64_t> loop_until_;  // [block]
   CoreItem splat_;
   std::deque<std::uint32_t> to_blend_;  // blocks of the splat
-  std::uint64_t lanes_free_ = 0;
+  std::uint64_t lanes_free_ = 0, conic_free_ = 0;
   std::deque<InPipeline> blocks_;
   ClockedDrain drain_;
 };

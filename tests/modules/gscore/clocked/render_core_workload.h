@@ -41,6 +41,7 @@ inline CoreHardware scheduled(const CoreWorkload& load, const GscoreConfig& conf
   REQUIRE(blending.interval_cycles() == hw.blend_interval);
   hw.depth = std::max(conic ? conic->depth_cycles : 0, corner_pipeline(config).depth_cycles) +
              blending.depth_cycles + kReadAndWrite;
+  hw.conic_interval = conic ? static_cast<std::uint32_t>(conic->interval_cycles()) : 1;
   hw.state_loop = blending.loop_cycles + kReadAndWrite;
   hw.drain_depth = drain_pipeline(config).depth_cycles;
   return hw;
