@@ -116,7 +116,7 @@ struct Message {
 // A machine of one queue, whose data sheet is the test's. (A process has room for one.)
 class Publisher : public Machine {
  public:
-  explicit Publisher(const char* name) : Machine(name), fifo_("fifo", clock_, 8) {}
+  explicit Publisher(const char* name) : Machine(name), fifo_("fifo", clock_, 10) {}
   const ClockDomain& clock() const override { return clock_; }
   void publish(DataSheet& sheet) override {
     sheet.unit(*this);
@@ -130,32 +130,32 @@ class Publisher : public Machine {
 };
 
 TEST_CASE("sram budget: more than there is, and a queue in no use, are refused by name") {
-  const SramUse fits = fifo_use<Message>("messages", "scratch", 8, "messages");
-  CHECK(fits.total_bytes() == 160);
+  const SramUse fits = fifo_use<Message>("messages", "scratch", 10, "messages");
+  CHECK(fits.total_bytes() == 200);
   Publisher machine("machine");
   machine.says = [&](DataSheet& sheet, FifoChannel& fifo) {
     sheet.sram(fits);
     sheet.queue(fifo, "messages");
-    sheet.sram_available("scratch", 100);
-    sheet.sram_available("scratch", 60);
+    sheet.sram_available("scratch", 120);
+    sheet.sram_available("scratch", 80);
   };
   CHECK_NOTHROW(check_sram_budget(machine));
 
   machine.says = [&](DataSheet& sheet, FifoChannel& fifo) {
     sheet.sram(fits);
     sheet.sram(fits);
-    sheet.sram(sram_use("blocks", "scratch", {{3, "blocks"}, {11, "B"}}, {32}, kOneOfEach));
+    sheet.sram(sram_use("blocks", "scratch", {{3, "blocks"}, {13, "B"}}, {32}, kOneOfEach));
     sheet.queue(fifo, "messages");
-    sheet.sram_available("scratch", 352);
+    sheet.sram_available("scratch", 438);
   };
   CHECK_THROWS_AS(check_sram_budget(machine), InputError);
   CHECK_THROWS_WITH(
       check_sram_budget(machine),
-      "on-chip memory scratch: 352 bytes are there, 353 are needed: messages 320 (2 x "
-      "8 messages x 20 B) + blocks 33 (3 blocks x 11 B)");
+      "on-chip memory scratch: 438 bytes are there, 439 are needed: messages 400 (2 x "
+      "10 messages x 20 B) + blocks 39 (3 blocks x 13 B)");
 
   machine.says = [&](DataSheet& sheet, FifoChannel&) { sheet.sram(fits); };
-  CHECK_THROWS_WITH(check_sram_budget(machine), Contains("0 bytes are there, 160 are needed"));
+  CHECK_THROWS_WITH(check_sram_budget(machine), Contains("0 bytes are there, 200 are needed"));
 
   machine.says = [&](DataSheet& sheet, FifoChannel& fifo) {
     sheet.sram(fits);
@@ -171,7 +171,7 @@ TEST_CASE("sram budget: more than there is, and a queue in no use, are refused b
     sheet.queue(fifo, "messages");
     sheet.sram_available("scratch", 1000);
   };
-  CHECK_THROWS_WITH(check_sram_budget(machine), Contains("hold 320 B") && Contains("uses 160"));
+  CHECK_THROWS_WITH(check_sram_budget(machine), Contains("hold 400 B") && Contains("uses 200"));
 }
 
 TEST_CASE("sram budget: banks of few rows are registers and take nothing of it") {
