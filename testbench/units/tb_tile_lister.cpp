@@ -96,6 +96,7 @@ void add_tests(const Converted& g, const GscoreConfig& config, const GscoreJob& 
 struct Lists {
   std::uint64_t blocks = 0, full = 0, displaced = 0;
   std::uint64_t words_read = 0, words_written = 0, bytes = 0;
+  std::uint64_t read_cycles = 0;  // four words each, of lines that leave between entries
 };
 
 // Words of 8 B of a block that its bytes [begin, end) lie in.
@@ -110,9 +111,11 @@ Lists lists_of(const Plan& plan, const GscoreConfig& config, const GscoreJob& jo
   Lists out;
   const BlockFormat blocks = config.blocks();
   const auto write = [&](Line& line) {
-    out.words_read += words_of(line.begin, line.end);
+    const std::uint64_t words = words_of(line.begin, line.end);
+    out.words_read += words;
     out.bytes += line.end - line.begin;
     line.begin = line.end;
+    return (words + 3) / 4;
   };
   for (std::uint32_t first = 0; first < job.tile_count; first += config.lists.tiles) {
     const Pass pass{first, std::min(first + config.lists.tiles, job.tile_count), false};
@@ -128,7 +131,7 @@ Lists lists_of(const Plan& plan, const GscoreConfig& config, const GscoreJob& jo
         Line& line = lines[(tile - first) % lines.size()];
         if (line.begin < line.end && line.tile != tile) {
           ++out.displaced;
-          write(line);
+          out.read_cycles += write(line);
         }
         if (line.begin == line.end) line = {tile, begin, end};
         line.end = end;
@@ -136,7 +139,7 @@ Lists lists_of(const Plan& plan, const GscoreConfig& config, const GscoreJob& jo
         const std::uint32_t end_of_line = (begin / blocks.line_bytes + 1) * blocks.line_bytes;
         if (end + blocks.entry.bytes() <= end_of_line) continue;
         ++out.full;
-        write(line);
+        out.read_cycles += write(line);
       }
     }
     for (Line& line : lines) write(line);
@@ -207,6 +210,7 @@ void check_lists(UnitBench& bench, const Plan& plan, const GscoreJob& job, std::
   bench.check_counter("blocks", lists.blocks);
   bench.check_counter("lines_full", lists.full);
   bench.check_counter("lines_displaced", lists.displaced);
+  bench.check_counter("line_cycles", lists.read_cycles);
   bench.check_accesses("lines of lists", lists.words_read, lists.words_written);
   bench.checks().equal(bench.bytes_written(), records * kRecordPlaceBytes + lists.bytes,
                        "bytes written");
@@ -334,11 +338,13 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
   if (tile == 1 && part == 1 && made == 1 && plan.tiles_each == 1) {
     checks.equal(busy, beside + bench.counter("tile_steps"), "cycles of tile tests");
   }
-  // A listed tile, a tile and each core's end a cycle; a line and a row of the table each pass.
+  // A listed tile, a tile and each core's end a cycle; a line and a row of the table each pass;
+  // lines that are read between entries.
   const std::uint64_t good = made - bench.counter("passes_overflowed");
   const std::uint64_t table = bench.accesses("ends of lists").second - pairs;
   checks.equal(bench.busy_cycles("listing"),
-               pairs + job.tile_count + good * config.cores + made * config.lists.lines + table,
+               pairs + bench.counter("line_cycles") + job.tile_count + good * config.cores +
+                   made * config.lists.lines + table,
                "cycles of listing");
   if (made == 1) {
     bench.check_counter("tiles_empty", empty);

@@ -226,7 +226,7 @@ void TileLister::put_entry(std::uint32_t tile, const TileEntry& entry) {
   if (line.tile != tile + 1) {
     if (line.tile != 0 && line.buffer.holds_new()) {
       ++counters_.lines_displaced;
-      flush_line(line);
+      flush_between(line);
     }
     line.tile = tile + 1;
     line.buffer.begin(place.line, place.begins_line ? 0 : place.at);
@@ -238,16 +238,26 @@ void TileLister::put_entry(std::uint32_t tile, const TileEntry& entry) {
   ++end.entries;
   if (!place.ends_line) return;
   ++counters_.lines_full;
-  flush_line(line);
+  flush_between(line);
 }
 
-void TileLister::flush_line(Line& line) {
+// No entry is written while the line is read.
+void TileLister::flush_between(Line& line) {
+  const std::uint64_t cycles = cycles_for(flush_line(line), kLineBanks);
+  list_.work(cycles);
+  counters_.line_cycles += cycles;
+}
+
+std::uint32_t TileLister::flush_line(Line& line) {
   const std::uint64_t at = line.buffer.address(blocks_.line_bytes);
   const std::uint32_t bytes = line.buffer.new_byte_count();
-  counters_.line_reads += line_words(static_cast<std::uint32_t>(at % blocks_.line_bytes), bytes);
+  const std::uint32_t words =
+      line_words(static_cast<std::uint32_t>(at % blocks_.line_bytes), bytes);
+  counters_.line_reads += words;
   start_write(memory, list_, job_.lists_of(set_).base + at, line.buffer.new_bytes(), bytes,
               job_.lists.region);
   line.buffer.written();
+  return words;
 }
 
 // Hands the tiles of a pass out and waits until they are drawn. One request of each core is
@@ -293,8 +303,7 @@ SramUses TileLister::sram_uses(const GscoreConfig& c) {
       sram_use(kEnds, kBuffer, {{c.lists.tiles, "tiles"}, {end_bytes, "B"}}, {8 * end_bytes},
                kOneOfEach),
       sram_use(kLines, kBuffer, {{c.lists.lines, "lines"}, {blocks.line_bytes, "B"}},
-               {8 * kLineWordBytes, SramPorts::kReadAndWrite, kLineBanks},
-               {kLineBanks, kLineBanks}),
+               {8 * kLineWordBytes, SramPorts::kOne, kLineBanks}, {kLineBanks, 0}),
       sram_use(kTags, kBuffer, {{c.lists.lines, "lines"}, {tag_bytes(c), "B"}}, {8 * tag_bytes(c)},
                kOneOfEach),
       sram_use(kWaitingRecords, kBuffer,

@@ -80,7 +80,8 @@ class TileLister : public sc_core::sc_module {
   void put_record(const Splat& splat);
   void flush_records();
   void put_entry(std::uint32_t tile, const TileEntry& entry);
-  void flush_line(Line& line);
+  std::uint32_t flush_line(Line& line);  // the words that are read
+  void flush_between(Line& line);        // two entries
   bool overlaps() const { return config_.lists.sets > 1; }
   void draw(const ProjectedPass& pass, Activity& by);
 
@@ -126,6 +127,8 @@ class TileLister : public sc_core::sc_module {
     Counter lines_full{*this, "lines_full", "lines", "written when they were full"};
     Counter lines_displaced{*this, "lines_displaced", "lines",
                             "written when another tile took their place"};
+    Counter line_cycles{*this, "line_cycles", "cycles",
+                        "in which entries waited while such a line was read"};
     Counter list_entries_max{*this, "list_entries_max", "entries", "of the longest list"};
     Counter tiles{*this, "tiles", "tiles", "handed out"};
     Counter tiles_empty{*this, "tiles_empty", "tiles", "of these without a Gaussian"};

@@ -51,6 +51,11 @@ class ClockedLister {
 
  private:
   enum class Do { kBegin, kTake, kWrite, kScan, kDrain, kAnswer, kGive, kDone, kOver };
+  // A line is read in the cycle in which it leaves: the memory's only port has no entry then.
+  struct Write {
+    std::uint64_t bytes;
+    bool of_line;
+  };
   struct Line {
     std::uint32_t tile = 0;  // 0: none
     bool holds_new = false;
@@ -73,8 +78,10 @@ class ClockedLister {
         return waits();
       case Do::kWrite:
         while (!writes_.empty()) {
-          if (!write(writes_.front())) return false;
+          const Write next = writes_.front();
+          if (!write(next.bytes)) return false;
           writes_.pop_front();
+          if (next.of_line) return waits();
         }
         do_ = Do::kTake;
         return true;
@@ -134,19 +141,19 @@ class ClockedLister {
   // What is written because of it: records, the line of another tile, its own line.
   void enter() {
     if (tile_.first && ++records_ == hw_.records_at_once) {
-      writes_.push_back(records_ * hw_.record_bytes);
+      writes_.push_back({records_ * hw_.record_bytes, false});
       records_ = 0;
     }
     const std::uint32_t at = tile_.tile - first_;
     Line& line = lines_[at % hw_.lines];
     if (line.tile != at + 1) {
-      if (line.holds_new) writes_.push_back(hw_.line_bytes);
+      if (line.holds_new) writes_.push_back({hw_.line_bytes, true});
       line = {at + 1, false};
     }
     const std::uint32_t in_block = ++entries_[at] % block_entries();
     const bool full = in_block == 0 || (in_block >= hw_.first_entries &&
                                         (in_block - hw_.first_entries) % hw_.line_entries == 0);
-    if (full) writes_.push_back(hw_.line_bytes);
+    if (full) writes_.push_back({hw_.line_bytes, true});
     line.holds_new = !full;
   }
   std::uint32_t block_entries() const {
@@ -188,7 +195,7 @@ class ClockedLister {
   std::vector<std::uint32_t> entries_;  // [tile of the pass]
   std::vector<Line> lines_;
   ClockedTile tile_;
-  std::deque<std::uint64_t> writes_;  // bytes of each
+  std::deque<Write> writes_;
   std::uint32_t records_ = 0, scanned_ = 0;
   std::size_t core_ = 0;
   std::vector<bool> told_;  // that the pass is over
