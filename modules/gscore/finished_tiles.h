@@ -25,7 +25,8 @@ class FinishedTiles : public sc_core::sc_object {
   // known_from: the cycle from which on the speaker's own pipeline has the news. It may be said
   // again.
   void finish(std::uint32_t tile, std::uint64_t known_from) {
-    seen_from_[tile] = static_cast<double>(known_from + latency_cycles_) * period_;
+    seen_from_[tile] =
+        sc_core::sc_time::from_value((known_from + latency_cycles_) * period_.value());
   }
   bool finished(std::uint32_t tile) const { return seen_from_[tile] <= sc_core::sc_time_stamp(); }
 

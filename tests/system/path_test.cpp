@@ -185,6 +185,8 @@ TEST_CASE("fixed rate: of a view as of a path, and none that is not held") {
         Approx(rate["power_w"]["middle"].get<double>()));
   CHECK(path["summary"]["energy_a_second_high_j"].get<double>() ==
         Approx(rate["power_w"]["high"].get<double>()));
+  CHECK(path["summary"]["with_memory_interface_w"].get<double>() ==
+        Approx(rate["with_memory_interface_w"]["middle"].get<double>()));
 }
 
 TEST_CASE("path: its files, and those of another run in the folder") {

@@ -259,8 +259,8 @@ void ExactVsu::wait_for_news() {
   if (!taken_.empty()) may_come(taken_.ready_at());
   if (tester_.any_tested()) may_come(tester_.ready_at());
   if (may_begin_group() && !waits_for_pose()) {
-    may_come(static_cast<double>(numbers_stand_[next_group_ % numbers_stand_.size()]) *
-             walk_.clock().period());
+    const std::uint64_t stand = numbers_stand_[next_group_ % numbers_stand_.size()];
+    may_come(sc_core::sc_time::from_value(stand * walk_.clock().period().value()));
   }
   if (waits_for_pose()) {
     const sc_core::sc_event_or_list news = news_ | host->news();

@@ -107,6 +107,13 @@ Activities::const_iterator busiest_of(const Activities& activities, const FrameR
 
 constexpr const char* kNoKey = "no key of the configuration is known to change that";
 
+// The display of a stream keeps poses and frame buffers back.
+bool is_display(const std::string& place) {
+  const std::string port = ".host";
+  return place.size() > port.size() &&
+         place.compare(place.size() - port.size(), port.size(), port) == 0;
+}
+
 }  // namespace
 
 std::vector<ResourceUse> resource_uses(const FrameResult& frame) {
@@ -182,7 +189,9 @@ Binding find_binding(const FrameResult& frame) {
     binding.remedy = cause.remedy;
     binding.explanation += "; no resource works more than two thirds of it: " + text_of(cause);
   }
-  if (binding.remedy.known()) {
+  if (is_display(binding.holds)) {
+    binding.advice = "there the display holds it back";
+  } else if (binding.remedy.known()) {
     binding.advice = text_of(binding.remedy);
   } else if (busiest.remedy.known()) {
     binding.remedy = busiest.remedy;

@@ -165,9 +165,10 @@ void visit_fixed_rate(ReportVisitor& r, const FixedRate& rate) {
 
 void visit_flow(ReportVisitor& r, const StreamFlow& flow) {
   r("time_s", "s",
-    "With a display the time from the first frame's picture to the last one's, else that of all.",
+    "From the first frame's picture to the last one's; where a frame misses, and without a "
+    "display, that of all.",
     flow.time_s);
-  r("frames", "", "Frames that are shown in that time.", flow.frames);
+  r("frames", "", "Frames that are drawn in that time.", flow.frames);
   r("bytes", "B", "As `dram.bytes`, requested in that time.", flow.bytes);
   r("bus_bytes", "B", "As `dram.bus_bytes`.", flow.bus_bytes);
   r.object("energy", [&] {
@@ -178,6 +179,7 @@ void visit_flow(ReportVisitor& r, const StreamFlow& flow) {
         "Middle energy of that time.");
   });
   visit_band(r, "power_w", "W", flow.power_w(), "Joules a second");
+  visit_totals(r, "_w", "W", flow.totals_w(), "Joules a second");
   r.object("memory", [&] {
     r.each(flow.states, [&](const MemoryState& state) {
       r.object({"STATE", state.name}, [&] {

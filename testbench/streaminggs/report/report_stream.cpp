@@ -15,7 +15,9 @@ void visit_times(ReportVisitor& r, const char* key, const MedianAndWorst& of,
 void visit_frame(ReportVisitor& r, std::size_t number, const StreamedPicture& frame) {
   const FrameTiming& t = frame.timing;
   r("frame", "", "Number of the frame, from 0.", number);
-  r("pose_s", "s", "Time of the last pose that the host had sent when the frame began.", t.pose_s);
+  r("pose_s", "s",
+    "Time when its pose was measured: its number over `frame_rate`. Without a display `begun_s`.",
+    t.pose_s);
   r("begun_s", "s", "Time when the machine took the pose.", t.begun_s);
   r("drawn_s", "s", "Time when its last pixel was in DRAM.", t.drawn_s);
   r("shown_s", "s", "Time when the display began to show it.", t.shown_s);
@@ -23,9 +25,13 @@ void visit_frame(ReportVisitor& r, std::size_t number, const StreamedPicture& fr
   r("held", "bool",
     "It is shown in the picture behind that of the frame before it. If not, that one is repeated.",
     t.held);
-  r("latency_s", "s", "From `pose_s` to the light of the middle row: motion to photon.",
+  r("latency_s", "s",
+    "Motion to photon: from `pose_s` to the light of the picture's middle row. No frame is left "
+    "out, so one that misses delays all later ones.",
     t.latency_s);
-  r("latched_late_s", "s", "The same from `begun_s`: with a pose that is measured then.",
+  r("latched_late_s", "s",
+    "The same from `begun_s`, as if the pose was measured then. Equal where a frame begins as its "
+    "pose comes.",
     t.latched_late_s);
   r("psnr_db", "dB", "As `image.psnr_db`.", frame.psnr_db);
   r("ssim", "0..1", "As `image.ssim`.", frame.ssim);

@@ -77,6 +77,8 @@ void visit_summary(ReportVisitor& r, const PathSummary& s) {
   r("energy_a_second_j", "J", "Energy a second: of both.", both.middle);
   r("energy_a_second_low_j", "J", "The same with the lowest values of the sources.", both.low);
   r("energy_a_second_high_j", "J", "The same with the highest values.", both.high);
+  r("with_memory_interface_w", "W", "Of both, with PHY and controller of the memory.",
+    s.with_interface_w.middle);
 }
 
 void visit_name(ReportVisitor& r, const std::string& path) {
@@ -109,8 +111,8 @@ void visit_all(ReportVisitor& r, const Json& config, const Failures& failed,
       visit_stream(r, of.report);
       r("all", "",
         "All frames together: the entries of a view but `view`, `camera`, `image`, `limit`, and "
-        "what "
-        "is of a single frame.",
+        "what is of a single frame. Its means are over the whole simulation, those of "
+        "`stream.flow` over what lies between two pictures.",
         of.all);
     });
   });

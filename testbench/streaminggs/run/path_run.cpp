@@ -75,8 +75,10 @@ class DrawnFrames {
   void add(ViewResult view, const Json& of_view) {
     const std::size_t number = frames_.size();
     const FixedRate& rate = view.fixed_rates.at(0);
+    const Totals& all_j = rate.held ? rate.totals_j : view.energy_totals_j;
     frames_.push_back(
-        {view.run.time_s(), view.energy_j.total, rate.rest_j.total, is_empty(view),
+        {view.run.time_s(), view.energy_j.total, rate.rest_j.total, all_j.with_memory_interface,
+         is_empty(view),
          view.run.memory.energy_not_stated.empty() && rate.memory_not_stated.empty()});
     lines_.push_back(line_of(of_view));
     all_equal_ = all_equal_ && view.equals_golden;
@@ -103,10 +105,12 @@ class DrawnFrames {
     // Late frames begin fewer a second than are asked for.
     const double frames = static_cast<double>(s.frames);
     const double begun = s.late > 0 ? frames * s.frames_w.middle / s.energy_j : s.rate;
-    fmt::print("{} mJ a frame; {} W at {} frames a second{}: {} for frames, {} between them\n",
-               rounded(1e3 * s.energy_j / frames), rounded(s.frames_w + s.idle_w), rounded(begun),
-               s.memory_known ? "" : " without the memory", rounded(s.frames_w.middle),
-               rounded(s.idle_w.middle));
+    fmt::print(
+        "{} mJ a frame, without the rest between frames; {} W at {} frames a second{}: {} for "
+        "frames, {} between them; {} W with PHY and controller\n",
+        rounded(1e3 * s.energy_j / frames), rounded(s.frames_w + s.idle_w), rounded(begun),
+        s.memory_known ? "" : " without the memory", rounded(s.frames_w.middle),
+        rounded(s.idle_w.middle), rounded(s.with_interface_w));
     if (s.late > 0) {
       fmt::print("{} of {} frames take longer than 1/{} s: the next one begins late\n", s.late,
                  s.frames, rounded(s.rate));

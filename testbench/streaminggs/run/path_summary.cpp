@@ -19,7 +19,7 @@ PathSummary summarise(const std::vector<PathFrame>& frames, double rate) {
   out.frames = frames.size();
   out.rate = rate;
   std::vector<double> times;
-  Band frames_j, idle_j;
+  Band frames_j, idle_j, with_interface_j;
   double all_s = 0;
   for (const PathFrame& frame : frames) {
     if (frame.time_s > frames[out.worst_frame].time_s) out.worst_frame = times.size();
@@ -30,6 +30,7 @@ PathSummary summarise(const std::vector<PathFrame>& frames, double rate) {
     out.memory_known = out.memory_known && frame.memory_known;
     frames_j = frames_j + frame.energy_j;
     idle_j = idle_j + frame.rest_j;
+    with_interface_j = with_interface_j + frame.with_interface_j;
     all_s += slot_s;
   }
   std::sort(times.begin(), times.end());
@@ -39,6 +40,7 @@ PathSummary summarise(const std::vector<PathFrame>& frames, double rate) {
   out.energy_j = frames_j.middle;
   out.frames_w = (1 / all_s) * frames_j;
   out.idle_w = (1 / all_s) * idle_j;
+  out.with_interface_w = (1 / all_s) * with_interface_j;
   return out;
 }
 

@@ -12,6 +12,7 @@ namespace sgs {
 struct PathFrame {
   double time_s = 0;
   Band energy_j, rest_j;
+  Band with_interface_j;     // both, and PHY and controller of the memory
   bool empty = false;        // no Gaussian contributes
   bool memory_known = true;  // the memory's energy is; if not, these are without it
 };
@@ -27,6 +28,7 @@ struct PathSummary {
   // joules a second for frames and between them.
   std::size_t late = 0;
   Band frames_w, idle_w;
+  Band with_interface_w;  // both, and PHY and controller of the memory
 };
 
 // frames: at least one. rate: frames a second. 99 of 100 frames reach p99_fps: it is that of the

@@ -54,39 +54,70 @@ class Judge {
 
 std::string in_ms(double seconds) { return rounded(1e3 * seconds); }
 
+// A frame that begins as its pose comes has no later one to take.
+void print_late_poses(const StreamSummary& s) {
+  constexpr double kNothing = 1e-3;  // of a latency
+  if (s.latched_late.worst_s < (1 - kNothing) * s.latency.worst_s) {
+    fmt::print("  with poses measured when frames begin: median {} ms, worst {} ms\n",
+               in_ms(s.latched_late.median_s), in_ms(s.latched_late.worst_s));
+    return;
+  }
+  fmt::print("  frames begin as their poses come: to measure these then gains nothing{}\n",
+             s.missed > 0
+                 ? ""
+                 : fmt::format("; each frame waits {} ms for its picture, or more: its pose may "
+                               "come so much later",
+                               in_ms(s.least_wait_s)));
+}
+
 void print_display(const StreamSummary& s) {
   if (s.rate == 0) return;
   if (s.missed == 0) {
     fmt::print("every frame is shown in its picture, {} a second\n", rounded(s.rate));
   } else {
-    fmt::print("{} of {} frames miss their picture, {} a second: {} of {} repeat the one before\n",
-               s.missed, s.frames.size(), rounded(s.rate), s.repeated, s.pictures);
+    fmt::print(
+        "{} of {} frames miss their picture, {} a second: {} of {} pictures repeat the one "
+        "before{}\n",
+        s.missed, s.frames.size(), rounded(s.rate), s.repeated, s.pictures,
+        s.frames.front().held ? "" : "; ahead of the first frame nothing is shown");
+    fmt::print(
+        "no frame is left out: one that misses keeps its buffer until the next picture, and "
+        "delays all later ones\n");
   }
   if (s.rows_late > 0) {
     fmt::print("{} rows of pixels come to the display too late\n", grouped(s.rows_late));
   }
   fmt::print(
-      "motion to photon: median {} ms, worst {} ms; with poses latched late {} and {} ms; frames "
-      "wait {} ms for their picture, or more\n",
-      in_ms(s.latency.median_s), in_ms(s.latency.worst_s), in_ms(s.latched_late.median_s),
-      in_ms(s.latched_late.worst_s), in_ms(s.least_wait_s));
+      "motion to photon: median {} ms, worst {} ms, from the time of frame n's pose, n/{} s, to "
+      "the light of the picture's middle row\n",
+      in_ms(s.latency.median_s), in_ms(s.latency.worst_s), rounded(s.rate));
+  print_late_poses(s);
 }
 
 void print_flow(const StreamFlow& flow, bool memory_known) {
   const double frames = static_cast<double>(flow.frames);
-  fmt::print("{} mJ and {} MB a frame; {} W{}", rounded(1e3 * flow.energy_j.total.middle / frames),
-             rounded(1e-6 * static_cast<double>(flow.bytes) / frames), rounded(flow.power_w()),
-             memory_known ? ", the memory: " : " without the memory\n");
+  const Totals watts = flow.totals_w();
+  const char* const without = memory_known ? "" : " without the memory";
+  fmt::print(
+      "{} mJ and {} MB a frame, with the rest between frames; {} W{}; {} W with PHY and "
+      "controller\n",
+      rounded(1e3 * flow.totals_j.without_memory_interface.middle / frames),
+      rounded(1e-6 * static_cast<double>(flow.bytes) / frames),
+      rounded(watts.without_memory_interface), without, rounded(watts.with_memory_interface));
   if (!memory_known) return;
+  double commands_w = 0, memory_w = 0;
   std::string states, high_end;
   for (const MemoryState& state : flow.states) {
     if (state.time_s == 0) continue;
-    states += fmt::format("{}{} {} % of the time, {} W", states.empty() ? "" : "; ", state.name,
-                          rounded(100 * state.time_s / flow.time_s),
-                          rounded(state.energy_j / flow.time_s));
+    memory_w += state.energy_j / flow.time_s;
+    states += fmt::format("{} {} W in {} % of the time, ", state.name,
+                          rounded(state.energy_j / flow.time_s),
+                          rounded(100 * state.time_s / flow.time_s));
     if (state.name == kSelfRefreshState) high_end = "; at the band's high end in power-down";
   }
-  fmt::print("{}{}\n", states, high_end);
+  for (const auto& [command, joules] : flow.commands) commands_w += joules / flow.time_s;
+  fmt::print("  of these the memory {} W: {}commands and I/O {} W{}\n",
+             rounded(memory_w + commands_w), states, rounded(commands_w), high_end);
 }
 
 void print_frames(const StreamReport& stream) {
@@ -107,7 +138,7 @@ void print_stream(const StreamReport& stream, const ViewResult& all) {
   const StreamSummary& s = stream.summary;
   fmt::print("\n{} frames along {}, back to back: {} frames a second\n", s.frames.size(),
              stream.name, rate_in_words(s.frames_per_s));
-  fmt::print("from pose to last pixel: worst {} ms (frame {}), p99 {} ms, median {} ms\n",
+  fmt::print("from begin to last pixel: worst {} ms (frame {}), p99 {} ms, median {} ms\n",
              in_ms(s.frame_time.worst_s), s.worst_frame, in_ms(s.frame_time_p99_s),
              in_ms(s.frame_time.median_s));
   print_display(s);
@@ -143,10 +174,9 @@ int run_stream(const PathJob& job, RunSetting& setting, const ResultFolder& out,
   account(all, config.dram, setting.technology);
   LeftOutCollector left_out(all.left_out);
   list_left_out(scene.stored, all.run.machine, left_out);
-  StreamReport stream{job.name,
-                      summarise(all.run, job.frame_rate),
-                      flow_of(all.run, config.dram, setting.technology),
-                      {}};
+  const StreamSummary summary = summarise(all.run, job.frame_rate);
+  StreamReport stream{
+      job.name, summary, flow_of(all.run, summary, config.dram, setting.technology), {}};
   Judge judge(scene, config, left_out);
   ContactSheet sheet(job.frames.size());
   bool all_equal = true;

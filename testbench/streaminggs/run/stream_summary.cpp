@@ -45,7 +45,7 @@ StreamSummary summarise(const FrameResult& run, double rate) {
     frame.begun_s = of.begun_s;
     frame.drawn_s = of.drawn_s;
     frame.shown_s = of.shown_s;
-    frame.pose_s = rate > 0 ? std::floor(of.begun_s * rate + kOfPeriod) * period_s : of.begun_s;
+    frame.pose_s = rate > 0 ? of.pose_s : of.begun_s;
     frame.held = rate == 0 || of.shown_s - shown_before_s < (1 + kOfPeriod) * period_s;
     shown_before_s = of.shown_s;
     const double light_s = of.shown_s + period_s / 2;
@@ -79,26 +79,33 @@ void end_in_power_down(StreamFlow& flow, const DramConfig& dram) {
     if (component != "dram" || self_refresh_s == 0) continue;
     const double more = power_down_j(dram, self_refresh_s);
     joules.high += more;
-    flow.energy_j.total.high += more;
+    for (Band* total : {&flow.energy_j.total, &flow.totals_j.without_memory_interface,
+                        &flow.totals_j.with_memory_interface}) {
+      total->high += more;
+    }
   }
 }
 
-StreamFlow simulated_flow(const FrameResult& run, const Technology& technology) {
+StreamFlow simulated_flow(const FrameResult& run, const StreamSummary& summary,
+                          const Technology& technology) {
   const std::vector<FrameResult>& shown = run.stream.first_and_last_shown;
+  const bool whole = shown.empty() || summary.missed > 0;
   StreamFlow flow;
-  const FrameResult& end = shown.empty() ? run : shown.back();
+  const FrameResult& end = whole ? run : shown.back();
   flow.states = end.memory.states;
   flow.commands = end.memory.commands;
   flow.bytes = end.memory.bytes;
   flow.bus_bytes = end.memory.bus_bytes;
   flow.time_s = end.time_s();
   flow.frames = run.stream.frames.size();
-  if (shown.empty()) {
+  flow.totals_j = energy_totals(end, technology);
+  if (whole) {
     flow.energy_j = energy_of(run, technology);
     return flow;
   }
   const FrameResult& begin = shown.front();
   flow.energy_j = energy_between(begin, end, technology);
+  flow.totals_j = flow.totals_j + -1 * energy_totals(begin, technology);
   flow.time_s -= begin.time_s();
   --flow.frames;
   flow.bytes -= begin.memory.bytes;
@@ -115,8 +122,9 @@ StreamFlow simulated_flow(const FrameResult& run, const Technology& technology) 
 
 }  // namespace
 
-StreamFlow flow_of(const FrameResult& run, const DramConfig& dram, const Technology& technology) {
-  StreamFlow flow = simulated_flow(run, technology);
+StreamFlow flow_of(const FrameResult& run, const StreamSummary& summary, const DramConfig& dram,
+                   const Technology& technology) {
+  StreamFlow flow = simulated_flow(run, summary, technology);
   end_in_power_down(flow, dram);
   return flow;
 }

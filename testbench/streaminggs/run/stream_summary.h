@@ -14,15 +14,15 @@ namespace sgs {
 
 // Seconds since the start, but for latencies.
 struct FrameTiming {
-  double pose_s = 0;   // of the last pose that the host had sent when the frame began
+  double pose_s = 0;   // its pose was measured: without a display when the frame began
   double begun_s = 0;  // the machine took it
   double drawn_s = 0, shown_s = 0;
   // The frame is shown in the picture behind that of the frame before it; the first in the first
   // picture. Without a display all are.
   bool held = true;
   double time_s() const { return drawn_s - begun_s; }
-  // From a pose to the light of the picture's middle row: from pose_s, and from the moment when the
-  // frame begins.
+  // To the light of the picture's middle row: from pose_s, and from begun_s as if the pose was
+  // measured then.
   double latency_s = 0, latched_late_s = 0;
 };
 
@@ -47,19 +47,23 @@ struct StreamSummary {
 // run: of a stream, of at least two frames.
 StreamSummary summarise(const FrameResult& run, double rate);
 
-// What a stream takes while it flows: with a display from the first frame's picture to the last
-// one's, so that as many frames are drawn as are shown; else from its start to its end.
+// What a stream takes while it flows: where every frame is held, from the first one's picture to
+// the last one's, so that as many frames are drawn as are shown; else from its start to its end.
 struct StreamFlow {
   double time_s = 0;
   std::size_t frames = 0;
   CostResult energy_j;
+  Totals totals_j;  // the same
   std::uint64_t bytes = 0, bus_bytes = 0;
   std::vector<MemoryState> states;
   std::vector<std::pair<std::string, double>> commands;  // J
   Band power_w() const { return 1 / time_s * energy_j.total; }
+  Totals totals_w() const { return 1 / time_s * totals_j; }
 };
 
-// dram: of the run's simulation. High: the memory is in power-down where it refreshed itself.
-StreamFlow flow_of(const FrameResult& run, const DramConfig& dram, const Technology& technology);
+// summary: of the run. dram: of its simulation. High: the memory is in power-down where it
+// refreshed itself.
+StreamFlow flow_of(const FrameResult& run, const StreamSummary& summary, const DramConfig& dram,
+                   const Technology& technology);
 
 }  // namespace sgs

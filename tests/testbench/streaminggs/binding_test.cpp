@@ -86,6 +86,16 @@ TEST_CASE("binding: the waiting is followed from two thirds of the frame downwar
              !Contains("no resource works"));
 }
 
+TEST_CASE("binding: where the display holds a stream back there is nothing to change") {
+  ActivityResult drain = activity("drain", 300);
+  drain.waits = {{WaitFor::kRoom, "rendering.host", "", {}, 700}};
+  const Binding binding = find_binding(frame_of({drain}, 0.2));
+  CHECK(binding.holds == "rendering.host");
+  CHECK_FALSE(binding.remedy.known());
+  CHECK_THAT(binding.sentence(),
+             Contains("70 % of the frame, at rendering.host; there the display holds it back"));
+}
+
 // A pipeline of up to three activities: unit.walk -> visits -> filter.test -> splats -> blend.draw.
 struct Stage {
   std::uint64_t busy;

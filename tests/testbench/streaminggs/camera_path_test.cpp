@@ -170,7 +170,11 @@ TEST_CASE("path summary: by table") {
     std::vector<PathFrame> frames;
     for (const double ms : row.times_ms) {
       const double rest_j = 0.5 * std::max(0.0, 20 - ms) / 1e3;
-      frames.push_back({ms / 1e3, {2e-3, 3e-3, 5e-3}, {rest_j / 2, rest_j, 4 * rest_j}, ms > 10});
+      frames.push_back({ms / 1e3,
+                        {2e-3, 3e-3, 5e-3},
+                        {rest_j / 2, rest_j, 4 * rest_j},
+                        {3e-3 + rest_j, 7e-3, 9e-3},
+                        ms > 10});
     }
     const PathSummary s = summarise(frames, 50);
     CHECK(s.worst_fps == Approx(row.worst));
@@ -188,6 +192,8 @@ TEST_CASE("path summary: by table") {
     CHECK(s.frames_w.low == Approx(row.frames_w * 2 / 3));
     CHECK(s.frames_w.high == Approx(row.frames_w * 5 / 3));
     CHECK(s.idle_w.middle == Approx(row.idle_w));
+    CHECK(s.with_interface_w.low == Approx(row.frames_w + row.idle_w));
+    CHECK(s.with_interface_w.middle == Approx(row.frames_w * 7 / 3));
     CHECK(s.idle_w.low == Approx(row.idle_w / 2));
     CHECK(s.idle_w.high == Approx(row.idle_w * 4));
   }

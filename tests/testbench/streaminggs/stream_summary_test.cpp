@@ -19,9 +19,9 @@ FrameResult stream_of(const std::vector<StreamedFrame>& frames) {
 }
 
 TEST_CASE(
-    "stream: a frame behind a repeated picture is missed and latency counts from a sent pose") {
-  // Pictures at 10, 20, ... ms. The third frame begins 4 ms after a pose was sent, and comes too
-  // late for 40 ms.
+    "stream: a frame behind a repeated picture is missed, and latency counts it from there on") {
+  // Pictures at 10, 20, ... ms. The third frame begins 4 ms after its pose was measured, and comes
+  // too late for 30 and 40 ms.
   const FrameResult run = stream_of({{0, 0, 0.006, 0.010, {}},
                                      {0.010, 0.010, 0.0195, 0.020, {}},
                                      {0.020, 0.024, 0.041, 0.050, {}},
@@ -29,8 +29,8 @@ TEST_CASE(
   const StreamSummary s = summarise(run, 100);
   CHECK(s.missed == 1);
   const bool held[] = {true, true, false, true};
-  const double pose_s[] = {0, 0.010, 0.020, 0.040};
-  const double latency_s[] = {0.015, 0.015, 0.035, 0.025};
+  const double pose_s[] = {0, 0.010, 0.020, 0.030};
+  const double latency_s[] = {0.015, 0.015, 0.035, 0.035};
   const double late_s[] = {0.015, 0.015, 0.031, 0.024};
   for (std::size_t i = 0; i < 4; ++i) {
     INFO(i);
@@ -78,7 +78,8 @@ TEST_CASE("stream: its flow is what lies between the first frame's picture and t
   FrameResult run = at(50000, 30000, 9);
   run.stream.frames.resize(4);
   run.stream.first_and_last_shown = {at(10000, 5000, 1), at(40000, 25000, 7)};
-  const StreamFlow flow = flow_of(run, DramConfig(), technology);
+  StreamSummary held;
+  const StreamFlow flow = flow_of(run, held, DramConfig(), technology);
   CHECK(flow.time_s == Approx(30e-6));
   CHECK(flow.frames == 3);
   CHECK(flow.bytes == 300000);
@@ -99,20 +100,34 @@ TEST_CASE("stream: its flow is what lies between the first frame's picture and t
   CHECK(clock == Approx(1e-12 * (30000 * bits * technology.part(kRegisterClock).pj.middle +
                                  10000 * kGates * bits * technology.part(kClockGate).pj.middle)));
   CHECK(flow.power_w().middle == Approx(flow.energy_j.total.middle / 30e-6));
+  const Totals watts = flow.totals_w();
+  CHECK(watts.without_memory_interface.middle == Approx(flow.power_w().middle));
+  const Totals all_j = energy_totals(at(40000, 25000, 7), technology),
+               before_j = energy_totals(at(10000, 5000, 1), technology);
+  CHECK(watts.memory_interface.high ==
+        Approx((all_j.memory_interface.high - before_j.memory_interface.high) / 30e-6));
   // In power-down the memory takes more, at the high end alone.
   const Band awake = flow.energy_j.total;
   for (FrameResult& shown : run.stream.first_and_last_shown) {
     shown.memory.states.push_back({kSelfRefreshState, 0.5 * shown.time_s(), 0});
   }
-  const Band resting = flow_of(run, DramConfig(), technology).energy_j.total;
+  const Band resting = flow_of(run, held, DramConfig(), technology).energy_j.total;
   const double more_j = power_down_j(DramConfig(), 15e-6);
   CHECK(more_j > 0);
   CHECK(resting.high == Approx(awake.high + more_j));
   CHECK(resting.middle == awake.middle);
   CHECK(resting.low == awake.low);
-  run.stream.first_and_last_shown.clear();
-  CHECK(flow_of(run, DramConfig(), technology).frames == 4);
-  CHECK(flow_of(run, DramConfig(), technology).time_s == Approx(50e-6));
+  // Ahead of a frame that misses more is drawn than is shown.
+  StreamSummary missed;
+  missed.missed = 1;
+  for (const StreamSummary& summary : {missed, held}) {
+    const StreamFlow whole = flow_of(run, summary, DramConfig(), technology);
+    CHECK(whole.frames == 4);
+    CHECK(whole.time_s == Approx(50e-6));
+    CHECK(whole.bytes == 500000);
+    CHECK(whole.totals_j.without_memory_interface.middle == Approx(whole.energy_j.total.middle));
+    run.stream.first_and_last_shown.clear();
+  }
 }
 
 }  // namespace
