@@ -6,7 +6,7 @@
   report.py out/sweep.jsonl
 
 A folder is what `streaminggs simulate --out` wrote, with one view or several, or the frames of a
---path; or a folder that holds several runs at most three folders below, and the CSV tables that
+--path, with --stream or without; or a folder that holds several runs at most three folders below, and the CSV tables that
 scripts wrote there (explore.csv): the page then begins with all of them in one table and a diagram.
 Pictures are halved until the page is small enough, then left out from the last view on; it says so.
 
@@ -33,7 +33,10 @@ from reporting.folder import (
     find_tables,
 )
 from reporting.page import Panel, page
+from reporting.stream import held
 from reporting.sweep import read_sweep
+
+FRAMES = "frames back to back"
 
 
 def title_of(run: Run, files: ViewFiles, several_runs: bool) -> str:
@@ -61,7 +64,23 @@ def panels_of(runs: Sequence[Run], found: Sequence[Table]) -> list[Panel]:
         panels.append(Panel("overview", text=f"<div class=grid>{text}</div>"))
     several_runs = len(runs) > 1
     panels += [Panel(title_of(run, files, several_runs), run, files) for run, files in views]
+    for run in runs:
+        if run.stream:
+            of_run = run.name if several_runs else run.stream.all.report["scene"]["name"]
+            panels.append(Panel(f"{of_run}, {FRAMES}", run, run.stream.all))
     return panels
+
+
+def heading_of_stream(run: Run) -> tuple[str, str]:
+    """Of `simulate --path --stream`."""
+    whole = run.stream.all.report
+    words = (
+        f"{len(run.stream.report['frames'])} frames along {run.path}, {FRAMES}",
+        held(run.stream.report),
+        f"machine {whole['config']['machine']}",
+        f"commit {whole['provenance']['commit']}",
+    )
+    return whole["scene"]["name"], " · ".join(words)
 
 
 def heading_of_path(run: Run) -> tuple[str, str]:
@@ -83,6 +102,8 @@ def heading_of_path(run: Run) -> tuple[str, str]:
 
 def heading(runs: Sequence[Run], found: Sequence[Table], folder: pathlib.Path) -> tuple[str, str]:
     """Title and the line below it."""
+    if len(runs) == 1 and runs[0].stream:
+        return heading_of_stream(runs[0])
     if len(runs) == 1 and runs[0].path:
         return heading_of_path(runs[0])
     if not runs:

@@ -50,9 +50,7 @@ COLUMNS: dict[str, tuple[str, ...]] = {
         *("config.machine", "config.clock_mhz", "config.storage.encoding"),
         *("config.rendering.precision", "config.dram.memspec", "config.dram.channels"),
     ),
-    "frame": (
-        *("frame.cycles", "frame.time_s", "frame.fps", "frame.width_px", "frame.height_px"),
-    ),
+    "frame": (*("frame.cycles", "frame.time_s", "frame.fps", "frame.width_px", "frame.height_px"),),
     "image": (
         *("image.psnr_db", "image.ssim", "image.max_abs_error"),
         *("image.missed", "image.misordered"),
@@ -191,9 +189,7 @@ def sweep(
     return frame(rows) if importlib.util.find_spec("pandas") else rows
 
 
-def swept(
-    point: Settings, outcome: simulations.Outcome, more: Sequence[str]
-) -> dict[str, object]:
+def swept(point: Settings, outcome: simulations.Outcome, more: Sequence[str]) -> dict[str, object]:
     """A line of `sweep()`."""
     job = outcome.run
     status = "failed" if outcome.failure else "refused" if outcome.refused else "done"
@@ -207,7 +203,13 @@ def load(folder: str | pathlib.Path) -> list[dict]:
     folders below. Raises ValueError where there are none."""
     if not pathlib.Path(folder).is_dir():
         raise ValueError(f"{folder}: no folder, expected one with results")
-    reports = [files.report for run_of in find_runs(pathlib.Path(folder)) for files in run_of.views]
+    runs = list(find_runs(pathlib.Path(folder)))
+    reports = [files.report for run_of in runs for files in run_of.views]
+    if not reports and runs:
+        raise ValueError(
+            f"{folder}: got frames back to back, expected views or a path without --stream; `stream` "
+            "of report.json tells of these"
+        )
     if not reports:
         raise ValueError(f"{folder}: no report.json of `streaminggs simulate` in it or below")
     return reports

@@ -75,6 +75,19 @@ def details(summary: str, body: str) -> str:
     return f"<details><summary>{escaped(summary)}</summary>{body}</details>"
 
 
+def cards(entries: Sequence[tuple[str, str, str]]) -> str:
+    """Name, value and note each."""
+    return (
+        "<dl class=cards>"
+        + "".join(
+            f"<div><dt>{escaped(name)}</dt><dd><b>{escaped(value)}</b>"
+            f"<small>{escaped(note)}</small></dd></div>"
+            for name, value, note in entries
+        )
+        + "</dl>"
+    )
+
+
 def legend(classes: Sequence[tuple[str, str]]) -> str:
     """(class of the colour, name) each."""
     entries = "".join(f"<li><i class={name}></i>{escaped(text)}</li>" for name, text in classes)

@@ -79,7 +79,7 @@ def cost_bars(
     return charts.bars(("component", unit, "share"), rows, caption)
 
 
-def energy(view: dict) -> str:
+def energy(view: dict, of: str = "the frame") -> str:
     kinds = kinds_of_energy(view)
     whole = sum(kinds.values()) or 1
     parts = [
@@ -92,7 +92,7 @@ def energy(view: dict) -> str:
         "_j",
         1e3,
         "mJ",
-        f"Energy of the frame{without_memory(view)} by component; lines: what the sources allow",
+        f"Energy of {of}{without_memory(view)} by component; lines: what the sources allow",
         component_colours(view),
     )
 
@@ -240,11 +240,9 @@ def time_bars(spent: Sequence[Spent], caption: str) -> str:
 def time(view: dict) -> str:
     spent = activities(view)
     merged = by_kind(spent)
-    text = charts.legend(CAUSES) + time_bars(merged, "Share of the frame's cycles")
+    text = charts.legend(CAUSES) + time_bars(merged, "Share of all cycles")
     if len(merged) < len(spent):
-        text += charts.details(
-            "each unit by itself", time_bars(spent, "Share of the frame's cycles")
-        )
+        text += charts.details("each unit by itself", time_bars(spent, "Share of all cycles"))
     return text + charts.details("where it waits, and what to change", waits(view))
 
 

@@ -19,6 +19,7 @@ PICTURES = {
     "error.png": "error",
     "missed.png": "missed",
     "misordered.png": "misordered",
+    "right_frame.png": "right eye",
 }
 
 
@@ -52,6 +53,15 @@ class ViewFiles:
 
 
 @dataclasses.dataclass(frozen=True)
+class Stream:
+    """Frames back to back. report: of them one by one; all: machine and memory over all of them,
+    and the sheet of pictures."""
+
+    report: dict
+    all: ViewFiles
+
+
+@dataclasses.dataclass(frozen=True)
 class Run:
     """Views of one `simulate`, or frames of its --path. name: of its folder, below the one that was
     named."""
@@ -61,10 +71,11 @@ class Run:
     failed: tuple[dict, ...] = ()  # views without a report: `view` and `why`
     path: str = ""  # name of the camera path; empty: views
     summary: dict = dataclasses.field(default_factory=dict)  # of a path
+    stream: Stream | None = None  # of a path: then there are no views
 
     def shown(self) -> tuple[ViewFiles, ...]:
         """Views with a place of their own: of a path the slowest frame."""
-        return (self.views[self.summary["worst_frame"]],) if self.path else self.views
+        return (self.views[self.summary["worst_frame"]],) if self.summary else self.views
 
 
 @dataclasses.dataclass(frozen=True)
@@ -133,10 +144,19 @@ def path_run(report: dict, folder: pathlib.Path, name: str) -> Run:
     if slowest not in range(len(views)):
         got = f"got {slowest} of {len(views)} frames"
         raise ValueError(f"{folder / REPORT}: summary.worst_frame: {got}, expected one of them")
-    picture = folder / "frames" / f"{slowest:04}.png"
-    found = {"frame": read_picture(picture)} if picture.exists() else {}
+    pictures = {"frame": f"{slowest:04}.png", "right eye": f"{slowest:04}_right.png"}
+    paths = {what: folder / "frames" / name for what, name in pictures.items()}
+    found = {what: read_picture(path) for what, path in paths.items() if path.exists()}
     frames = tuple(ViewFiles(of, found if at == slowest else {}, {}) for at, of in enumerate(views))
     return Run(name, frames, path=report["path"]["name"], summary=report["summary"])
+
+
+def stream_run(report: dict, folder: pathlib.Path, name: str) -> Run:
+    """With the sheet of its pictures. Raises ValueError."""
+    sheet = folder / "contact_sheet.png"
+    found = {"frames": read_picture(sheet)} if sheet.exists() else {}
+    whole = ViewFiles({**report["stream"]["all"], "config": report["config"]}, found, {})
+    return Run(name, (), path=report["path"]["name"], stream=Stream(report["stream"], whole))
 
 
 def read_run(folder: pathlib.Path, name: str) -> Run | None:
@@ -149,7 +169,8 @@ def read_run(folder: pathlib.Path, name: str) -> Run | None:
         check(file, report, VIEW)
         return Run(name, (view_files(report, folder),))
     if "stream" in report:
-        raise ValueError(f"{file}: stream: got frames back to back, expected frames alone")
+        check(file, report, STREAM)
+        return stream_run(report, folder, name)
     if "path" in report:
         check(file, report, FRAMES)
         return path_run(report, folder, name)
@@ -184,6 +205,9 @@ def read_table(path: pathlib.Path) -> Table:
     return Table(path.stem, tuple(head), tuple(map(tuple, rows)))
 
 
+# What the memory's energy in a stream is told by.
+MEMORY_STATES = ("active", "precharged", "power_down", "self_refresh")
+MEMORY_COMMANDS = ("activate", "read", "write", "refresh", "io")
 NUMBER, TEXT, FLAG = (int, float), (str,), (bool,)
 OBJECT, LIST = (dict,), (list,)
 NAMES = {
@@ -226,7 +250,10 @@ VIEW = {
     "view": NUMBER,
     "scene": {"name": TEXT, **numbers("gaussians", "sh_degree")},
     "frame": numbers("width_px", "height_px", "cycles", "fps"),
-    "image": {"psnr_db": Or(NUMBER), "ssim": NUMBER, "equals_streaming_renderer": FLAG},
+    "image": {
+        **{"psnr_db": Or(NUMBER), "ssim": NUMBER, "equals_streaming_renderer": FLAG},
+        "right_eye?": {"psnr_db": Or(NUMBER)},
+    },
     "limit": numbers("ratio"),
     "binding": {"unit": TEXT, "utilisation": NUMBER, "explanation": TEXT},
     "units": Each({"activities": Each(ACTIVITY), "counters": Each(NUMBER)}),
@@ -241,6 +268,7 @@ VIEW = {
         **{**numbers("total_j", "mean_power_w"), "memory_known?": FLAG, **BANDS},
         "with_memory_interface_j?": numbers("low", "middle", "high"),
     },
+    "fixed_rates?": [{**numbers("per_s"), "held": FLAG, "power_w?": numbers("middle")}],
     "area_mm2": {
         **{**numbers("total"), **BANDS},
         "with_memory_interface?": numbers("low", "middle", "high"),
@@ -260,6 +288,32 @@ FRAMES = {
         *("frames", "worst_fps", "worst_frame", "p99_fps", "median_fps"),
         *("late_frames", "empty_frames", "frame_rate", "energy_a_second_j"),
     ),
+}
+OF_ONE_FRAME = ("view", "frame", "image", "limit", "config")  # and not of all frames of a stream
+BAND = numbers("low", "middle", "high")
+STREAM = {
+    "config": CONFIG,
+    "path": {"name": TEXT},
+    "stream": {
+        **numbers("frame_rate", "frames_per_s", "worst_frame", "missed_frames"),
+        **numbers("pictures", "repeated_pictures", "rows_late"),
+        "frame_time": numbers("median_s", "p99_s", "worst_s"),
+        **dict.fromkeys(("latency", "latched_late"), numbers("median_s", "worst_s")),
+        "flow": {
+            **numbers("time_s", "frames", "bytes", "bus_bytes"),
+            "energy": {**numbers("total_j"), **BANDS},
+            **dict.fromkeys(("power_w", "with_memory_interface_w"), BAND),
+            "memory": {
+                **{f"{state}?": numbers("time_s", "energy_j") for state in MEMORY_STATES},
+                **dict.fromkeys((f"{command}_j?" for command in MEMORY_COMMANDS), NUMBER),
+            },
+        },
+        "frames": [numbers("frame")],
+        "all": {
+            **{key: shape for key, shape in VIEW.items() if key not in OF_ONE_FRAME},
+            "frame": numbers("cycles"),
+        },
+    },
 }
 
 

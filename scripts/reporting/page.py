@@ -8,9 +8,9 @@ import dataclasses
 import pathlib
 from collections.abc import Sequence
 
-from reporting import charts, costs
+from reporting import charts, costs, stream
 from reporting.charts import data_uri, escaped, number, percent, ramp_css, rate, size_of
-from reporting.folder import Run, ViewFiles, flat
+from reporting.folder import Run, Stream, ViewFiles, flat
 
 ASSETS = pathlib.Path(__file__).resolve().parent
 STYLE, SCRIPTS = "report_page.css", ("report_page.js", "report_points.js")
@@ -18,8 +18,8 @@ MOST_BYTES = 6_000_000  # of the page
 MOST_HALVINGS = 2
 
 
-def quality(view: dict) -> str:
-    psnr_db = view["image"]["psnr_db"]
+def quality(image: dict) -> str:
+    psnr_db = image["psnr_db"]
     return "equal" if psnr_db is None else f"{psnr_db:.2f} dB"
 
 
@@ -39,6 +39,16 @@ def and_with_phy(amount: str, unit: str) -> str:
     return f"; {amount} {unit} with PHY and controller of the memory" if amount else ""
 
 
+def at_rates(view: dict) -> str:
+    """Power at the rates that --frame-rate named."""
+    return "".join(
+        f"; {number(of['power_w']['middle'])} W at {of['per_s']:g} a second"
+        if of["held"]
+        else f"; does not hold {of['per_s']:g} a second"
+        for of in view.get("fixed_rates", ())
+    )
+
+
 def of_the_model(view: dict) -> str:
     """How the picture stands to the streaming renderer's."""
     return f"{'bit for bit' if view['image']['equals_streaming_renderer'] else 'NOT'} the model's"
@@ -49,11 +59,16 @@ def key_numbers(view: dict) -> str:
     area = view["area_mm2"]
     joules, squares = energy["bands"]["total_j"], area["bands"]["total"]
     cards = (
-        ("frames a second", rate(frame["fps"]), f"{number(frame['cycles'])} cycles"),
+        (
+            "pairs a second" if "right_eye" in image else "frames a second",
+            rate(frame["fps"]),
+            f"{number(frame['cycles'])} cycles",
+        ),
         (
             "PSNR",
-            quality(view),
-            f"SSIM {image['ssim']:.4f}; {of_the_model(view)}",
+            quality(image),
+            (f"right eye {quality(image['right_eye'])}; " if "right_eye" in image else "")
+            + f"SSIM {image['ssim']:.4f}; {of_the_model(view)}",
         ),
         (
             "DRAM",
@@ -65,7 +80,8 @@ def key_numbers(view: dict) -> str:
             "energy",
             f"{number(1e3 * energy['total_j'])} mJ{costs.without_memory(view)}",
             f"{number(1e3 * joules['low'])} .. {number(1e3 * joules['high'])} mJ; "
-            f"{number(energy['mean_power_w'])} W" + and_with_phy(mj_with_phy(view), "mJ"),
+            f"{number(energy['mean_power_w'])} W{at_rates(view)}"
+            + and_with_phy(mj_with_phy(view), "mJ"),
         ),
         (
             "area",
@@ -79,15 +95,7 @@ def key_numbers(view: dict) -> str:
             f"works {percent(view['binding']['utilisation'])} of the frame",
         ),
     )
-    return (
-        "<dl class=cards>"
-        + "".join(
-            f"<div><dt>{escaped(name)}</dt><dd><b>{escaped(value)}</b>"
-            f"<small>{escaped(note)}</small></dd></div>"
-            for name, value, note in cards
-        )
-        + "</dl>"
-    )
+    return charts.cards(cards)
 
 
 def binding(view: dict) -> str:
@@ -135,6 +143,37 @@ def configuration(view: dict) -> str:
     )
 
 
+def panel_of_stream(files: Stream, uris: dict[str, str], remark: str) -> str:
+    """Everything about frames back to back."""
+    view, flow = files.all.report, files.report["flow"]
+    joules = {**view, "energy": {**view["energy"], **flow["energy"]}}
+    sections = (
+        ("Frames", stream.sheet(uris, remark), "wide"),
+        ("Where the time goes, all frames", costs.time(view), "wide"),
+        ("Energy", costs.energy(joules, stream.time_of(files.report)), ""),
+        ("DRAM traffic, all frames", costs.traffic(view), ""),
+        ("The memory's power", stream.memory(flow), ""),
+        ("Area", costs.area(view), ""),
+        ("Left out", left_out(view), ""),
+        ("Configuration", configuration(view), "wide"),
+    )
+    machine_binds = files.report["frame_rate"] == 0 or files.report["missed_frames"] > 0
+    return (
+        charts.cards(stream.key_numbers(files))
+        + (binding(view) if machine_binds else "")
+        + grid(sections)
+    )
+
+
+def grid(sections: Sequence[tuple[str, str, str]]) -> str:
+    """Title, text and width each."""
+    body = "".join(
+        f'<section class="{size}"><h3>{escaped(title)}</h3>{text}</section>'
+        for title, text, size in sections
+    )
+    return f"<div class=grid>{body}</div>"
+
+
 def panel_of_view(files: ViewFiles, uris: dict[str, str], name: str, remark: str) -> str:
     """Everything about a view."""
     view = files.report
@@ -148,11 +187,7 @@ def panel_of_view(files: ViewFiles, uris: dict[str, str], name: str, remark: str
         ("Over the picture, by group", heat_maps(files), "wide"),
         ("Configuration", configuration(view), "wide"),
     )
-    body = "".join(
-        f'<section class="{size}"><h3>{escaped(title)}</h3>{text}</section>'
-        for title, text, size in sections
-    )
-    return key_numbers(view) + binding(view) + f"<div class=grid>{body}</div>"
+    return key_numbers(view) + binding(view) + grid(sections)
 
 
 HEAT_MAPS = (
@@ -171,13 +206,14 @@ def pictures(files: ViewFiles, uris: dict[str, str], name: str, remark: str) -> 
     others = [what for what in uris if what != "frame"]
     width, height = files.report["frame"]["width_px"], files.report["frame"]["height_px"]
     layers = "".join(
-        f'<div class=layer data-what={what} {"" if at == 0 else "hidden"}>'
+        f'<div class=layer data-what="{what}" {"" if at == 0 else "hidden"}>'
         f'<img src="{uris[what]}" alt="{escaped(alt_text(what))}" '
         f'style="height:{tallness(files, what):.3f}%"></div>'
         for at, what in enumerate(others)
     )
     choices = "".join(
-        f'<label><input type=radio name="{name}-with" value={what} {"checked" if at == 0 else ""}>'
+        f'<label><input type=radio name="{name}-with" value="{what}" '
+        f'{"checked" if at == 0 else ""}>'
         f"<span>{escaped(what)}</span></label>"
         for at, what in enumerate(others)
     )
@@ -201,6 +237,7 @@ def pictures(files: ViewFiles, uris: dict[str, str], name: str, remark: str) -> 
 
 def alt_text(what: str) -> str:
     texts = {"reference": "picture of the reference renderer", "error": "largest channel error"}
+    texts["right eye"] = "picture of the right eye"
     return texts.get(what, f"squared error of what was {what}")
 
 
@@ -247,7 +284,7 @@ def heat_maps(files: ViewFiles) -> str:
 
 @dataclasses.dataclass(frozen=True)
 class Panel:
-    """A tab of the page: a text, or a view whose report and pictures are drawn."""
+    """A tab of the page: a text, or a view or a stream whose report and pictures are drawn."""
 
     name: str
     run: Run | None = None
@@ -256,6 +293,8 @@ class Panel:
 
 
 def text_of(panel: Panel, at: int, uris: dict[str, str], remark: str) -> str:
+    if panel.run and panel.run.stream:
+        return panel_of_stream(panel.run.stream, uris, remark)
     return panel.text or panel_of_view(panel.files, uris, f"v{at}", remark)
 
 

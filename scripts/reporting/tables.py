@@ -258,7 +258,7 @@ def table_of_views(runs: Sequence[Run]) -> Table:
                     f"{frame['width_px']}x{frame['height_px']}",
                     rate(frame["fps"]),
                     number(frame["cycles"]),
-                    quality(view),
+                    quality(view["image"]),
                     number(view["dram"]["bytes"] / 1e6),
                     number(view["dram"]["bus_bytes"] / 1e6),
                     *(

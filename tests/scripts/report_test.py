@@ -126,12 +126,69 @@ class Page(WithFrames):
         summary["worst_frame"] = 2
         report_file.write_text(json.dumps(whole))
         self.assertRefused(folder, "summary.worst_frame: got 2 of 2 frames, expected one of them$")
-        report_file.write_text(json.dumps({**whole, "stream": {}}))
-        self.assertRefused(folder, "stream: got frames back to back, expected frames alone$")
         report_file.write_text(text)
         self.assertEqual(len(streaminggs.load(folder)), 2)
         self.assertHolds(page, "2 frames along the turntable of builtin:object?n=100")
         self.assertHolds(page, "path.csv")
+
+    def test_frames_back_to_back(self):
+        words = ["builtin:object?n=100", "--size", "32x18", "--path", "builtin:path"]
+        words += ["--frames", "3", "--stream"]
+        both = self.folder / "both"
+        for name, rate in (("free", "0"), ("held", "100"), ("missed", "400000")):
+            out = ["--frame-rate", rate, "--out", str(both / name)]
+            done = call(pathlib.Path(COMMAND), words + out)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        page = self.page(both / "held")
+        file = both / "held" / "report.json"
+        whole = json.loads(file.read_text())
+        stream = whole["stream"]
+        watts = [
+            f"{charts.number(stream['flow']['power_w'][end])}" for end in ("low", "middle", "high")
+        ]
+        for text in (
+            "3 frames along the turntable of builtin:object?n=100, frames back to back",
+            "every frame in its picture, 100 a second",
+            f"<b>{watts[1]} W</b>",
+            f"{watts[0]} .. {watts[2]} W",
+            f"{charts.number(stream['flow']['with_memory_interface_w']['middle'])} W with PHY",
+            f"<b>{charts.number(1e3 * stream['latency']['median_s'])} ms</b>",
+            "2 frames from the first picture to the last",
+            charts.escaped(stream["all"]["provenance"]["command"]),
+        ):
+            self.assertHolds(page, text)
+        self.assertEqual(page.count('src="data:image/png'), 1)
+        self.assertFalse("What binds" in page)  # the display does
+        self.assertHolds(self.page(both / "free"), "What binds")
+        self.assertHolds(self.page(both / "missed"), "frames miss their picture, 400000 a second")
+        self.simulated("exact", "both/alone")
+        page = self.page(both)
+        self.assertHolds(page, "4 runs, 1 views")
+        self.assertHolds(page, ">held, frames back to back</button>")
+        with self.assertRaisesRegex(ValueError, "got frames back to back, expected views or"):
+            streaminggs.load(both / "held")
+        self.assertEqual(len(streaminggs.load(both)), 1)
+        (both / "held" / "report.html").unlink()
+        del stream["flow"]["energy"]["bands"]
+        file.write_text(json.dumps(whole))
+        self.assertRefused(both / "held", "no 'stream.flow.energy.bands', expected what")
+
+    def test_two_eyes_at_a_rate(self):
+        folder = self.folder / "eyes"
+        words = ["builtin:object?n=100", "--size", "32x18", "--stereo", "ipd=0.1"]
+        words += ["--fit-memories", "--frame-rate", "90,1e6", "--out", str(folder)]
+        done = call(pathlib.Path(COMMAND), words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = self.page(folder)
+        view = json.loads((folder / "report.json").read_text())["views"][0]
+        watts = view["fixed_rates"][0]["power_w"]["middle"]
+        for text in (
+            '<div class=layer data-what="right eye"',
+            f"right eye {view['image']['right_eye']['psnr_db']:.2f} dB",
+            "<dt>pairs a second</dt>",
+            f"; {charts.number(watts)} W at 90 a second; does not hold 1e+06 a second",
+        ):
+            self.assertHolds(page, text)
 
     def test_what_a_report_says_is_text(self):
         folder = self.simulated("exact", "hostile")

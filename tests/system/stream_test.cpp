@@ -227,6 +227,8 @@ TEST_CASE("stream: its joules close, and rest costs less than work") {
     const double time_s = number(flow["time_s"]);
     CHECK(states_s == Approx(time_s).epsilon(1e-4));
     CHECK(number(flow["power_w"]["middle"]) == Approx(number(energy["total_j"]) / time_s));
+    CHECK(flow["without_memory_interface_w"] == flow["power_w"]);
+    CHECK(number(flow["with_memory_interface_w"]["low"]) > number(flow["power_w"]["low"]));
     if (run.stream()["missed_frames"] == 0 && run.stream()["frame_rate"] > 0) {
       CHECK(time_s == Approx((kFrames - 1) / number(run.stream()["frame_rate"])));
       CHECK(flow["frames"] == kFrames - 1);
@@ -273,8 +275,26 @@ TEST_CASE("stream: its rate is told as held or missed, and late poses gain what 
   CHECK(stream["pictures"] == kFrames + stream["repeated_pictures"].get<int>());
   CHECK(number(stream["frames_per_s"]) < std::stod(kTight));
   CHECK(number(stream["latched_late"]["worst_s"]) <= number(stream["latency"]["worst_s"]));
+  CHECK(stream["flow"]["frames"] == kFrames);
+  for (const PathRun* run : {&held, &missed}) {
+    const double rate = number(run->stream()["frame_rate"]);
+    for (const Json& frame : run->stream()["frames"]) {
+      const double pose_s = number(frame["frame"]) / rate;
+      CHECK(number(frame["pose_s"]) == Approx(pose_s).margin(1e-12));
+      CHECK(number(frame["latency_s"]) == Approx(number(frame["shown_s"]) - pose_s + 0.5 / rate));
+    }
+  }
   CHECK(held.table.rfind("frame,pose_s,begun_s,drawn_s,shown_s,time_s,held,", 0) == 0);
   CHECK(std::count(held.table.begin(), held.table.end(), '\n') == kFrames + 1);
+}
+
+// A moment late in a stream has more digits than a double.
+TEST_CASE("stream: its frames may be minutes apart") {
+  for (const char* config : {"exact", "gscore_lossless"}) {
+    const PathRun run = stream_of(with_settings({"--config", config}, {"clock_mhz=700"}), "0.001");
+    CHECK(run.stream()["missed_frames"] == 0);
+    CHECK(number(run.stream()["latency"]["worst_s"]) == Approx(1500));
+  }
 }
 
 TEST_CASE("stream: an independent checker accepts the commands of a memory that rests") {
