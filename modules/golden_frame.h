@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -25,6 +26,7 @@ struct GoldenFrame {
   std::uint64_t blends = 0;  // (splat, pixel) pairs
   // Gaussians blended into at least one pixel; of two eyes those of the eye that has more.
   std::uint64_t contributing = 0;
+  std::array<std::uint64_t, 2> contributing_of{};  // [eye] the same, where there are two
   std::uint64_t misordered = 0;     // blends behind a splat that is farther, at the same pixel
   std::uint64_t missed = 0;         // (group, splat) pairs that touch and were not looked at
   std::vector<GoldenGroup> groups;  // [group, row by row]; they add up to the frame's
@@ -44,6 +46,7 @@ struct GoldenFrame {
   void add_right_eye(GoldenFrame&& of_right) {
     right = std::move(of_right.image);
     blends += of_right.blends;
+    contributing_of = {contributing, of_right.contributing};
     contributing = std::max(contributing, of_right.contributing);
     misordered += of_right.misordered;
     missed += of_right.missed;

@@ -17,7 +17,6 @@
 #include "algorithm/files/input_json.h"
 #include "algorithm/files/output_file.h"
 #include "algorithm/render/group_state.h"
-#include "algorithm/scene/gaussian_cloud.h"
 #include "modules/dram/memspec.h"
 #include "testbench/command_line/config_source.h"
 #include "testbench/streaminggs/commands.h"
@@ -103,6 +102,7 @@ void check_groups(const std::string& text, const GroupRange& range, const Machin
 
 // Distance of the eyes, world units; 0: there is one.
 double eyes_apart(const std::string& stereo) {
+  constexpr double kMostApart = 1e6;  // the unit may be a micrometre
   if (stereo.empty()) return 0;
   const std::string key = "ipd=";
   double distance = 0;
@@ -110,13 +110,26 @@ double eyes_apart(const std::string& stereo) {
   const bool named = stereo.rfind(key, 0) == 0;
   const auto read = std::from_chars(stereo.data() + (named ? key.size() : 0), end, distance);
   if (!named || read.ec != std::errc() || read.ptr != end || !(distance > 0) ||
-      distance > kMaxCoordinate) {
+      distance > kMostApart) {
     throw InputError(fmt::format(
         "--stereo: got '{}', expected ipd=DISTANCE of the eyes in world units, above 0 and at most "
         "{}: their axes are parallel",
-        stereo, kMaxCoordinate));
+        stereo, kMostApart));
   }
   return distance;
+}
+
+// Refuses a machine for other eyes than --stereo draws for.
+void check_eyes_given(RunConfig& config, bool two) {
+  for (const ConfigOrigin& value : config.origins) {
+    if (value.path != "eyes") continue;
+    const Json eyes = parse_json(to_json(config), "the configuration").at("eyes");
+    if ((eyes > 1) == two) continue;
+    throw InputError(
+        fmt::format("{}: eyes: got {} {} --stereo, expected {}: --stereo sets it, and says how far "
+                    "they are apart",
+                    value.origin, eyes.dump(), two ? "with" : "without", two ? 2 : 1));
+  }
 }
 
 // One file each of one simulation.
@@ -204,6 +217,10 @@ void print_what_runs(RunSetting& setting) {
              precision.empty() ? "" : fmt::format("blends in {}, ", precision),
              config.at("storage").at("encoding").get<std::string>());
   if (!setting.config.sizes_replaced.empty()) fmt::print("{}\n", setting.config.sizes_replaced);
+  const Technology& technology = setting.technology;
+  if (technology.path != data_file("technology_32nm.json")) {
+    fmt::print("costs by {}, {}\n", technology.path, technology.name);
+  }
 }
 
 // Prints where tables of the memory's numbers disagree: those of shipped memspecs are known.
@@ -224,6 +241,7 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   std::optional<PackedScene> packed = arguments.load_packed();
   check_cameras_of_path(arguments, config.storage.encoding, packed.has_value());
   const double apart = eyes_apart(arguments.stereo);
+  check_eyes_given(config, apart > 0);
   if (apart > 0) config.design->draw_two_eyes();
   std::vector<Camera> keys;
   std::optional<PathJob> path;

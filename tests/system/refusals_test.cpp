@@ -164,13 +164,14 @@ TEST_CASE("refusals: two eyes where there is one, and axes that are not parallel
   check({"ipd=0.06", "--config", "paper"}, {"--stereo", "one picture a frame", "exact or gscore"});
   check({"ipd=0.06", "--set", "merge.on_overflow=blend_early"}, {"blend_early with eyes 2"});
   for (const char* text :
-       {"0.06", "ipd=", "ipd=x", "ipd=0", "ipd=-1", "ipd=1e30", "ipd=nan", "ipd=0.06,vergence=2"}) {
+       {"0.06", "ipd=", "ipd=x", "ipd=0", "ipd=-1", "ipd=2e6", "ipd=nan", "ipd=0.06,vergence=2"}) {
     check({text}, {"--stereo: got '" + std::string(text) + "'", "ipd=DISTANCE", "parallel"});
   }
   for (const char* machine : {"exact", "gscore"}) {
-    Arguments keys = {"eyes=2"};
-    if (std::string(machine) == "exact") keys.emplace_back("sram.shared_bytes=0");
-    check_set_refused(machine, keys, {"eyes: got 2, expected 1", "--stereo"});
+    check_set_refused(machine, {"eyes=2"},
+                      {"--set eyes=2: eyes: got 2 without --stereo, expected 1"});
+    check({"ipd=0.06", "--config", machine, "--set", "eyes=1"},
+          {"--set eyes=1: eyes: got 1 with --stereo, expected 2"});
   }
 }
 

@@ -147,6 +147,10 @@ TEST_CASE("whole frame: the report names the camera and the table that prices we
   const std::string shipped = bytes_of(SGS_TECHNOLOGY);
   CHECK(provenance_with(shipped) == provenance_with(shipped));
   CHECK(provenance_with(shipped) != provenance_with(shipped + "\n"));
+  const Outcome told =
+      run_streaminggs({"simulate", "builtin:object?n=300", "--size", "32x18", "--technology",
+                       scratch.path("table.json"), "--out", scratch.path("out")});
+  CHECK(told.out.find("costs by " + scratch.path("table.json") + ", 32 nm") != std::string::npos);
 }
 
 }  // namespace

@@ -170,6 +170,8 @@ void visit_image(ReportVisitor& r, const ViewResult& view, bool original_known) 
       r("ssim", "0..1", "As `image.ssim`.", right.ssim);
       r("max_abs_error", "linear", "As `image.max_abs_error`.",
         [&] { return max_abs_error(right.frame, right.reference); });
+      r("empty", "bool", "No Gaussian contributes to this eye's picture.",
+        golden.contributing_of[1] == 0);
     });
   });
   r.each(view.order_loss, [&](const OrderLoss& loss) { visit_error_parts(r, loss); });

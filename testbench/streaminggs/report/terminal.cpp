@@ -78,10 +78,18 @@ void print_bottleneck(const ViewResult& v) {
 
 void print_right_eye(const ViewResult& v) {
   if (!v.right) return;
-  fmt::print("view {}: right eye {} beside the left one, {} dB, SSIM {:.5f}\n", v.view,
-             v.camera.eyes_apart,
-             std::isinf(v.right->psnr_db) ? "equal" : fmt::format("{:.2f}", v.right->psnr_db),
-             v.right->ssim);
+  fmt::print(
+      "view {}: right eye, {:g} world units beside the left one: {}, SSIM {:.5f}; cycles, bytes "
+      "and "
+      "joules are of both pictures, and frames a second are pairs\n",
+      v.view, v.camera.eyes_apart,
+      std::isinf(v.right->psnr_db) ? "equal" : fmt::format("{:.2f} dB", v.right->psnr_db),
+      v.right->ssim);
+  for (std::size_t eye = 0; eye < 2 && !is_empty(v); ++eye) {
+    if (v.golden.contributing_of[eye] > 0) continue;
+    fmt::print("view {}: the {} eye sees no Gaussian: their distance is in the scene's units\n",
+               v.view, eye == 0 ? "left" : "right");
+  }
 }
 
 void print_empty(std::size_t empty, std::size_t all, const char* what) {

@@ -99,9 +99,10 @@ class DrawnFrames {
 
   void print() const {
     const PathSummary s = summary();
-    fmt::print("\n{} frames along {}: frames a second worst {} (frame {}), p99 {}, median {}\n",
-               s.frames, job_.name, rate_in_words(s.worst_fps), s.worst_frame,
-               rate_in_words(s.p99_fps), rate_in_words(s.median_fps));
+    fmt::print("\n{} frames{} along {}: frames a second worst {} (frame {}), p99 {}, median {}\n",
+               s.frames, slowest_->right ? " of two eyes" : "", job_.name,
+               rate_in_words(s.worst_fps), s.worst_frame, rate_in_words(s.p99_fps),
+               rate_in_words(s.median_fps));
     // Late frames begin fewer a second than are asked for.
     const double frames = static_cast<double>(s.frames);
     const double begun = s.late > 0 ? frames * s.frames_w.middle / s.energy_j : s.rate;

@@ -85,7 +85,10 @@ void print_display(const StreamSummary& s) {
         "delays all later ones\n");
   }
   if (s.rows_late > 0) {
-    fmt::print("{} rows of pixels come to the display too late\n", grouped(s.rows_late));
+    fmt::print(
+        "{} rows of pixels come to the display too late; pictures due before the last one are left "
+        "out\n",
+        grouped(s.rows_late));
   }
   fmt::print(
       "motion to photon: median {} ms, worst {} ms, from the time of frame n's pose, n/{} s, to "
