@@ -169,7 +169,14 @@ QuantityChange compare(const ReportDiff& diff, Quantity quantity) {
 }  // namespace
 
 ReportDiff diff_runs(const ReportedRun& a, const ReportedRun& b) {
+  if (a.stream != b.stream) {
+    throw InputError(
+        fmt::format("{} and {}: got frames back to back in {} alone, expected both of simulate "
+                    "--stream, or neither",
+                    a.path, b.path, a.stream ? "the first" : "the second"));
+  }
   ReportDiff diff;
+  diff.streams = a.stream;
   pair_views(a, b, diff);
   if (diff.views.empty()) {
     throw InputError(fmt::format("{} and {}: got no view that is in both, expected one or more",

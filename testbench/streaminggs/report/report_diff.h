@@ -36,6 +36,7 @@ struct QuantityChange {
 };
 
 struct ReportDiff {
+  bool streams = false;             // of frames back to back, each run one view
   std::vector<std::string> unlike;  // facts that make them runs of something else, a sentence each
   std::vector<std::pair<const ReportedView*, const ReportedView*>> views;  // in both
   std::vector<ConfigChange> config;
@@ -47,7 +48,8 @@ struct ReportDiff {
   std::vector<QuantityChange> quantities;
 };
 
-// Both outlive it. Throws InputError where they have no view in common.
+// Both outlive it. Throws InputError where they have no view in common, or one is of frames back to
+// back alone.
 ReportDiff diff_runs(const ReportedRun& a, const ReportedRun& b);
 
 }  // namespace sgs

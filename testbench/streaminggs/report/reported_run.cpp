@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "algorithm/files/input_error.h"
@@ -111,16 +112,20 @@ std::string in_digits(const JsonPlace& place) {
   return fmt::format("{}", std::round(place.number() * kSteps) / kSteps + 0.0);  // no -0
 }
 
-void add_facts(const JsonPlace& report, ReportedView& view) {
+std::string plain(const JsonPlace& place) { return in_words(place.json()); }
+
+void add_scene(const JsonPlace& scene, ReportedView& view) {
+  view.facts.emplace_back(
+      "scene", fmt::format("{}, {} Gaussians, SH degree {}, {} dropped", plain(scene.at("name")),
+                           plain(scene.at("gaussians")), plain(scene.at("sh_degree")),
+                           plain(scene.at("dropped_invalid"))));
+}
+
+void add_camera(const JsonPlace& report, ReportedView& view) {
   const auto fact = [&](const char* kind, std::string what) {
     view.facts.emplace_back(kind, std::move(what));
   };
-  const auto plain = [](const JsonPlace& place) { return in_words(place.json()); };
-  const JsonPlace scene = report.at("scene"), camera = report.at("camera");
-  const JsonPlace frame = report.at("frame"), provenance = report.at("provenance");
-  fact("scene", fmt::format("{}, {} Gaussians, SH degree {}, {} dropped", plain(scene.at("name")),
-                            plain(scene.at("gaussians")), plain(scene.at("sh_degree")),
-                            plain(scene.at("dropped_invalid"))));
+  const JsonPlace camera = report.at("camera"), frame = report.at("frame");
   // Reports of earlier programs tell the camera's name alone. A pose has other names in other
   // files.
   if (camera.has("position")) {
@@ -136,6 +141,12 @@ void add_facts(const JsonPlace& report, ReportedView& view) {
     fact("camera", fmt::format("{} ({})", plain(camera.at("id")), plain(camera.at("img_name"))));
   }
   fact("size, px", fmt::format("{}x{}", plain(frame.at("width_px")), plain(frame.at("height_px"))));
+}
+
+void add_program(const JsonPlace& provenance, ReportedView& view) {
+  const auto fact = [&](const char* kind, std::string what) {
+    view.facts.emplace_back(kind, std::move(what));
+  };
   fact("technology", plain(provenance.at("technology")));
   // Reports of earlier programs have a hash of another kind.
   if (provenance.has("technology_xxh64")) {
@@ -145,19 +156,18 @@ void add_facts(const JsonPlace& report, ReportedView& view) {
        fmt::format("{} {}", plain(provenance.at("version")), plain(provenance.at("commit"))));
 }
 
-ReportedView read_view(const JsonPlace& report) {
-  ReportedView view;
-  view.view = static_cast<int>(report.at("view").number());
-  add_facts(report, view);
+std::string psnr_in_words(const JsonPlace& psnr_db) {
+  return psnr_db.json().is_null() ? "equal" : fmt::format("{:.2f}", psnr_db.number());
+}
+
+// What a simulation counted.
+void add_counts(const JsonPlace& report, ReportedView& view) {
   view.cycles = report.at("frame").at("cycles").number();
   const JsonPlace provenance = report.at("provenance");
   // Reports of earlier programs lack it.
   if (provenance.has("memory_image_xxh64")) {
     view.image_hash = provenance.at("memory_image_xxh64").text();
   }
-  const JsonPlace psnr_db = report.at("image").at("psnr_db");
-  view.psnr_db = psnr_db.json().is_null() ? "equal" : fmt::format("{:.2f}", psnr_db.number());
-  view.equals = report.at("image").at("equals_streaming_renderer").json() == true;
   view.holds = report.at("binding").at("holds").text();
   add_units(report.at("units"), view);
   view.of(Quantity::kTime).whole = report.at("frame").at("time_s").number();
@@ -171,6 +181,41 @@ ReportedView read_view(const JsonPlace& report) {
                                                       : "without the memory's, which is not known");
   add_costs(report.at("area_mm2"), "", view.of(Quantity::kArea));
   add_owners(report.at("area_mm2"), view.of(Quantity::kDieArea));
+}
+
+ReportedView read_view(const JsonPlace& report) {
+  ReportedView view;
+  view.view = static_cast<int>(report.at("view").number());
+  add_scene(report.at("scene"), view);
+  add_camera(report, view);
+  add_program(report.at("provenance"), view);
+  const JsonPlace image = report.at("image");
+  view.psnr_db = psnr_in_words(image.at("psnr_db"));
+  view.equals = image.at("equals_streaming_renderer").json() == true;
+  add_counts(report, view);
+  return view;
+}
+
+// Frames back to back as one view: its picture is the worst of theirs.
+ReportedView read_stream(const JsonPlace& report) {
+  const JsonPlace stream = report.at("stream"), all = stream.at("all");
+  ReportedView view;
+  add_scene(all.at("scene"), view);
+  const std::vector<JsonPlace> frames = stream.at("frames").elements();
+  view.facts.emplace_back(
+      "path", fmt::format("{}, {} frames", plain(report.at("path").at("name")), frames.size()));
+  view.facts.emplace_back("pictures a second", plain(stream.at("frame_rate")));
+  add_program(all.at("provenance"), view);
+  double worst_db = std::numeric_limits<double>::infinity();
+  view.psnr_db = "equal";
+  for (const JsonPlace& frame : frames) {
+    view.equals = view.equals && frame.at("equals_streaming_renderer").json() == true;
+    const JsonPlace psnr_db = frame.at("psnr_db");
+    if (psnr_db.json().is_null() || psnr_db.number() >= worst_db) continue;
+    worst_db = psnr_db.number();
+    view.psnr_db = psnr_in_words(psnr_db);
+  }
+  add_counts(all, view);
   return view;
 }
 
@@ -217,7 +262,11 @@ ReportedRun read_reported_run(const std::string& path) {
   check_version(report);
   flatten(report.at("config"), "", run.config);
   JsonPlace first = report;
-  if (report.has("views")) {
+  run.stream = report.has("stream");
+  if (run.stream) {
+    run.views.push_back(read_stream(report));
+    first = report.at("stream").at("all");
+  } else if (report.has("views")) {
     const JsonPlace views = report.at("views");
     for (const JsonPlace& view : views.elements()) run.views.push_back(read_view(view));
     if (run.views.empty()) views.refuse("a finished view or more");

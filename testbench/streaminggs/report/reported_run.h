@@ -50,6 +50,7 @@ struct ReportedRun {
   std::map<std::string, std::string> config;  // every key with its path, and its value as JSON
   std::set<std::string> chosen;               // those of them that the model chose
   std::map<std::string, std::string> used;    // bytes that are built, by the key with the size
+  bool stream = false;                        // of frames back to back, which are one view
   std::vector<ReportedView> views;            // by number
 };
 

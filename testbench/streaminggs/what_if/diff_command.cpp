@@ -76,7 +76,8 @@ void print_views(const ReportDiff& diff) {
              diff.clocks_differ ? "ms A" : "cycles A", "B", "change", "PSNR dB A", "B", "held by");
   for (const auto& [a, b] : diff.views) {
     const double in_a = a->of(measure).whole, in_b = b->of(measure).whole;
-    fmt::print("{:>6} {:>15} {:>15} {:>10} {:>9} {:>9}   {}{}\n", a->view, in_words(in_a, measure),
+    fmt::print("{:>6} {:>15} {:>15} {:>10} {:>9} {:>9}   {}{}\n",
+               diff.streams ? "frames" : fmt::format("{}", a->view), in_words(in_a, measure),
                in_words(in_b, measure), change(in_a, in_b), a->psnr_db, b->psnr_db,
                a->holds == b->holds ? a->holds : a->holds + " -> " + b->holds,
                noise_of(in_a, in_b));

@@ -94,6 +94,37 @@ TEST_CASE("diff: the frames of a camera path are views") {
   CHECK(read(scratch, "report.json", path).views.size() == 2);
 }
 
+TEST_CASE("diff: frames back to back are one view, compared with their like alone") {
+  const ScratchFolder scratch;
+  const auto stream_of = [&](const char* name, const json& worst_db, double rate) {
+    json all = view_of(0);
+    for (const char* key : {"view", "camera", "image", "config"}) all.erase(key);
+    const json frame = {{"psnr_db", nullptr}, {"equals_streaming_renderer", true}};
+    json worst = frame;
+    worst["psnr_db"] = worst_db;
+    return read(
+        scratch, name,
+        {{"schema_version", 2},
+         {"config", view_of(0)["config"]},
+         {"path", {{"name", "walk"}}},
+         {"stream", {{"frame_rate", rate}, {"frames", {frame, worst, frame}}, {"all", all}}},
+         {"views", json::array()}});
+  };
+  const ReportedRun one = stream_of("one.json", 50.5, 90), equal = stream_of("b.json", nullptr, 90),
+                    fast = stream_of("c.json", 50.5, 120);
+  CHECK(one.views.at(0).psnr_db == "50.50");
+  CHECK(equal.views.at(0).psnr_db == "equal");
+  const ReportDiff same = diff_runs(one, equal);
+  CHECK(same.streams);
+  CHECK(same.unlike.empty());
+  CHECK(of(same, Quantity::kBusy).a == 1000);
+  CHECK(diff_runs(one, fast).unlike == std::vector<std::string>{"pictures a second: 90.0 | 120.0"});
+  const ReportedRun views = read(scratch, "views.json", run_of({view_of(0)}));
+  const std::string error = input_error_of([&] { diff_runs(views, one); });
+  CHECK(error.find("frames back to back in the second alone, expected both of simulate --stream") !=
+        std::string::npos);
+}
+
 TEST_CASE("diff: one value changed, by table") {
   struct Row {
     const char* pointer;
