@@ -41,8 +41,8 @@ SramUse times(SramUse use, std::uint32_t count) {
 
 SramUses queue_uses(const GscoreConfig& c) {
   SramUses uses = {times(fifo_use<Pass>(kPasses, kBuffer, 1, "passes"), pass_fifos(c)),
-                   times(fifo_use<Converted>(kConverted, kBuffer, most_converted_entries(c),
-                                             "Gaussians", Converted::sram_bytes(c.eyes)),
+                   times(fifo_use<Converted>(kConverted, kBuffer,
+                                             c.eyes * most_converted_entries(c), "Gaussians"),
                          c.ccus),
                    times(fifo_use<TileRequest>(kRequests, kBuffer, 1, "requests"), c.cores),
                    times(fifo_use<TileJob>(kJobs, kBuffer, 1, "jobs"), c.cores),
@@ -125,6 +125,7 @@ void GscoreMachine::bind() {
     sorters_[c]->sorted(*sorted_[c]);
     renderers_[c]->sorted(*sorted_[c]);
     renderers_[c]->done(*done_[c]);
+    renderers_[c]->host(host);
     lister_.done(*done_[c]);
   }
 }
@@ -152,6 +153,9 @@ void GscoreMachine::publish(DataSheet& sheet) {
   publish_queues(sheet, passes_, kPasses, "ccus");
   publish_queues(sheet, visible_, kVisible, "ccu.input_slots");
   publish_queues(sheet, converted_, kConverted, "ccu.output_entries");
+  // Words of second eyes, each in the cycle behind the first one's.
+  const std::uint64_t second_words = lister_.second_eyes_taken();
+  sheet.accesses(kConverted, second_words, second_words);
   publish_queues(sheet, requests_, kRequests, "cores");
   publish_queues(sheet, jobs_, kJobs, "sorting.list_buffers");
   publish_queues(sheet, sorted_, kSorted, "rendering.sorted_entries");

@@ -60,9 +60,8 @@ struct ConvertedForEye {
   TileBoxes boxes{};
 };
 struct Converted : ConvertedForEye {
-  // For each eye: record, key, tiles, parts, box, its limits.
+  // Record, key, tiles, parts, box, its limits: a word of an eye that sees it.
   static constexpr std::uint32_t kSramBytes = 108;
-  static std::uint32_t sram_bytes(std::uint32_t eyes) { return eyes * kSramBytes; }
   bool last = false;
   bool end_of_pass = false;  // last of the last slice
   ConvertedForEye right;     // the right eye's, where there are two

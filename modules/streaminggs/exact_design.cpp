@@ -35,6 +35,13 @@ void ExactDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>&
 
 FrameJob ExactDesign::job(const StoredScene& scene, const Camera& camera) const {
   check_eyes(config_.hfu.eyes, camera);
+  constexpr std::uint64_t kMostSlots = std::uint64_t{1} << MergeUnit::kSlotBits;
+  if (scene.image.layout.gaussian_count() > kMostSlots) {
+    throw InputError(fmt::format(
+        "scene: got {} Gaussians, expected at most {}: machine exact tells the eyes of a key in "
+        "the word of its slot",
+        scene.image.layout.gaussian_count(), kMostSlots));
+  }
   FrameJob job = scene_job(config_, scene, camera);
   add_spill(job, exact_spill_bytes(scene.image.layout));  // by the scene alone
   add_frame_buffers(job);

@@ -91,6 +91,41 @@ TEST_CASE("two eyes: what is too large for the chip, tables in passes, encodings
   check("gscore_lossless", {"lists.pool_bytes=1000000"});
 }
 
+TEST_CASE("two eyes: one that sees nothing is told") {
+  const auto told = [](const char* apart) {
+    const ScratchFolder scratch;
+    const Outcome done =
+        run_streaminggs({"simulate", "builtin:object?n=500", "--size", "32x18", "--stereo", apart,
+                         "--fit-memories", "--out", scratch.path("out")});
+    INFO(done.err);
+    REQUIRE(done.status == 0);
+    CHECK(done.out.find("world units beside the left one") != std::string::npos);
+    const Json view = Json::parse(bytes_of(scratch.path("out/report.json")))["views"][0];
+    CHECK(view["image"]["empty"] == false);
+    const bool said = done.out.find("the right eye sees no Gaussian") != std::string::npos;
+    CHECK(view["image"]["right_eye"]["empty"] == said);
+    return said;
+  };
+  CHECK(told("ipd=100000"));
+  CHECK_FALSE(told("ipd=0.064"));
+}
+
+TEST_CASE("two eyes: gscore's Gaussians are queued and tested an eye at a time") {
+  const auto queue_of = [](const Simulation& of) {
+    for (const Json& use : of.views()[0]["sram"]["uses"]) {
+      if (use["name"] == "converted Gaussians") return use;
+    }
+    return Json();
+  };
+  const Arguments one_eye = frame_of("gscore_lossless", "builtin:object?n=1000");
+  const Simulation left(one_eye), pair(joined(one_eye, {"--stereo", "ipd=0.064"}));
+  const Json one = queue_of(left), two = queue_of(pair);
+  CHECK(two["width_bits"] == one["width_bits"]);
+  CHECK(two["bytes"].get<double>() > 1.5 * one["bytes"].get<double>());
+  CHECK(two["writes"] == counter(pair.views()[0], "lister", "gaussians") +
+                             counter(pair.views()[0], "lister", "ends_alone"));
+}
+
 TEST_CASE("two eyes: what both need is fetched once") {
   const auto bytes = [](const Simulation& of, const char* region) {
     return static_cast<double>(region_bytes(of.views()[0], region, "read"));

@@ -265,7 +265,6 @@ std::uint32_t TileLister::flush_line(Line& line) {
 void TileLister::draw(const ProjectedPass& projected, Activity& by) {
   const Pass& pass = projected.pass;
   const std::uint32_t frame = job_.frame_of(pass.first);
-  await_buffer(host, frame, by);
   if (asked_ == nullptr) asked_ = std::make_unique<FifoSelector<TileRequest>>(requests);
   const auto any = [](int) { return true; };
   for (std::uint32_t tile = pass.first; tile < pass.end; ++tile) {
@@ -349,15 +348,15 @@ void TileLister::publish(DataSheet& sheet) {
   sheet.operations("lists", "adder", static_cast<double>(kAdders * counters_.pairs));
   // The Gaussian whose tiles are tested; the end of the list that was written last, which may be
   // wanted before it can be read.
-  const double tested_bits = 8.0 * Converted::sram_bytes(config_.eyes);
+  const double tested_bits = 8.0 * Converted::kSramBytes;
   const double end_bits = 8.0 * list_end_bytes(blocks_, config_.pool_blocks());
   sheet.part("lists", "register_bit", tested_bits + end_bits, 1);
   sheet.operations("lists", "register_bit",
-                   8.0 * Converted::kSramBytes * static_cast<double>(counters_.gaussians) +
+                   tested_bits * static_cast<double>(counters_.gaussians) +
                        end_bits * static_cast<double>(counters_.pairs));
   // Selection of the CCU whose Gaussian it is: two-way multiplexers.
   publish_selection(sheet, "lists", {config_.ccus, tested_bits},
-                    static_cast<double>(counters_.gaussians) / config_.eyes);
+                    static_cast<double>(counters_.gaussians));
   sheet.datapath(tile_path_, counters_.tile_steps);
   if (part_path_) sheet.datapath(*part_path_, counters_.part_tests);
   sheet.queue(test_passes_, kTestPasses);

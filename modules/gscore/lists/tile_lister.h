@@ -42,6 +42,8 @@ class TileLister : public sc_core::sc_module {
 
   static SramUses sram_uses(const GscoreConfig& config);
   void publish(DataSheet& sheet);
+  // Gaussians taken that both eyes see.
+  std::uint64_t second_eyes_taken() const { return counters_.second_eyes; }
 
  private:
   struct Line {
@@ -132,6 +134,7 @@ class TileLister : public sc_core::sc_module {
     Counter list_entries_max{*this, "list_entries_max", "entries", "of the longest list"};
     Counter tiles{*this, "tiles", "tiles", "handed out"};
     Counter tiles_empty{*this, "tiles_empty", "tiles", "of these without a Gaussian"};
+    std::uint64_t second_eyes = 0;                  // of Gaussians that both see
     std::uint64_t line_reads = 0, line_writes = 0;  // words
     std::uint64_t table_reads = 0, table_writes = 0;
     std::uint64_t line_looks = 0, line_changes = 0;

@@ -18,6 +18,7 @@ void TileLister::run_test() {
         end_of_pass = next.end_of_pass;
         if (next.there) test_tiles(next, 0, pass);
         if (next.right.there) test_tiles(next.right, 1, pass);
+        counters_.second_eyes += next.there && next.right.there ? 1 : 0;
         if (!next.any_there()) {
           test_.work(1);
           ++counters_.ends_alone;

@@ -240,6 +240,7 @@ void RenderCore::run_drain() {
     mark = next.mark;
     if (mark == EntryMark::kEndOfTile) {
       drain_.takes_up_tile(next.tile);
+      await_buffer(host, job_.frame_of(next.tile), drain_);
       write_tile(*next.state, job_.picture_of(next.tile));
       free_pixels_.push(0, drain_);
       continue;

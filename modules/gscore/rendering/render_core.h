@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "algorithm/render/group_state.h"
+#include "modules/frame_host.h"
 #include "modules/gscore/finished_tiles.h"
 #include "modules/gscore/gscore_job.h"
 #include "modules/gscore/messages.h"
@@ -26,6 +27,7 @@ class RenderCore : public sc_core::sc_module {
  public:
   FifoIn<SortedEntry> sorted{"sorted"};
   FifoOut<PassDone> done{"done"};
+  FrameHostPort host{"host"};
   MemoryPort record_memory, pixel_memory;
 
   SC_HAS_PROCESS(RenderCore);

@@ -55,6 +55,7 @@ class MergeUnit : public sc_core::sc_module {
     Counter keys_spilled{*this, "keys_spilled", "keys", "written to DRAM, over all passes"};
   };
   const Counters& counters() const { return counters_; }
+  static constexpr std::uint32_t kSlotBits = 30;  // of its word in a spilled key, the eyes above
   const HeapWork& heap_work() const { return pending_.work(); }
   static SramUses sram_uses(const MergeConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet);
@@ -64,7 +65,6 @@ class MergeUnit : public sc_core::sc_module {
     using Entry = FineCandidate;
     std::uint32_t group = 0;
     static constexpr std::uint32_t bytes() { return kKeyBytes; }
-    static constexpr std::uint32_t kSlotBits = 30;  // of its word, with the eyes above
     void encode(const FineCandidate& key, std::byte* out) const;
     FineCandidate decode(const std::byte* bytes) const;
   };
