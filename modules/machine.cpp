@@ -1,9 +1,11 @@
 // Every machine's way to the memory.
 #include "modules/machine.h"
 
+#include <cstddef>
 #include <limits>
 
 #include "algorithm/splat/view.h"
+#include "modules/frame_job.h"
 
 namespace sgs {
 namespace {
@@ -47,15 +49,17 @@ void Machine::bind_display(MemoryPort& port) {
   port.socket.bind(router_->from_initiators[router_->from_initiators.size() - 1]);
 }
 
-void Machine::publish_poses(DataSheet& sheet, std::uint32_t frames) const {
-  if (frames == 1) return;
+void Machine::publish_poses(DataSheet& sheet, const FrameJob& job) const {
+  if (job.frames() == 1) return;
   constexpr const char* kPoses = "poses";
-  constexpr std::size_t kSizeBytes = sizeof(View<float>::width) + sizeof(View<float>::height);
-  constexpr double kBits = 8 * (sizeof(View<float>) - kSizeBytes);  // all frames have one size
-  sheet.part(kPoses, "register_bit", kFramesAtOnce * kBits, 1);
-  sheet.operations(kPoses, "register_bit", drawn_ * kBits);
-  sheet.part(kPoses, "select_bit", kBits, 1);
-  sheet.operations(kPoses, "select_bit", drawn_ * kBits);
+  // What stands before the size, which all frames have in common.
+  constexpr std::size_t kOneEye = offsetof(View<float>, width);
+  constexpr std::size_t kPlace = sizeof(View<float>::eyes_apart) + sizeof(View<float>::to_eye);
+  const double bits = 8.0 * static_cast<double>(kOneEye + (job.eyes > 1 ? kPlace : 0));
+  sheet.part(kPoses, "register_bit", kFramesAtOnce * bits, 1);
+  sheet.operations(kPoses, "register_bit", drawn_ * bits);
+  sheet.part(kPoses, "select_bit", bits, 1);
+  sheet.operations(kPoses, "select_bit", drawn_ * bits);
 }
 
 }  // namespace sgs

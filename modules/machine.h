@@ -17,6 +17,8 @@
 
 namespace sgs {
 
+struct FrameJob;
+
 // One in a simulation: its InstantEnd must be the only one.
 class Machine : public sc_core::sc_module {
  public:
@@ -59,8 +61,9 @@ class Machine : public sc_core::sc_module {
   void connect_memory(std::uint32_t frames);
 
   // The registers that a machine of several frames keeps poses in, where the host writes the next
-  // one meanwhile. Units whose lanes take a pose as constants have registers of their own.
-  void publish_poses(DataSheet& sheet, std::uint32_t frames) const;
+  // one meanwhile; of two eyes with the right one's place. Units whose lanes take a pose as
+  // constants have registers of their own.
+  void publish_poses(DataSheet& sheet, const FrameJob& job) const;
 
   // Arbiter of units that share something: decides who gets it.
   InstantEnd& instant_end() { return instant_end_; }

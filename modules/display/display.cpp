@@ -24,7 +24,7 @@ Display::Display(const sc_core::sc_module_name& name, const FrameJob& job, doubl
       period_(period_of(rate)),
       cycle_(cycle),
       times_(job.frames(), FrameTimes{never(), never(), never(), never()}),
-      picture_(job.frame_buffer.bytes),
+      pictures_(job.eyes, std::vector<std::byte>(job.frame_buffer.bytes)),
       news_("news") {
   for (std::uint32_t frame = 0; frame < job.frames(); ++frame) times_[frame].pose = due(frame);
   if (rate > 0) SC_THREAD(run);
@@ -56,7 +56,7 @@ void Display::drawn(std::uint32_t frame) {
   revise_rest();
   if (period_ != sc_core::SC_ZERO_TIME) return;
   show_next();
-  on_shown(frame, nullptr);
+  for (std::uint32_t eye = 0; eye < job_.eyes; ++eye) on_shown(frame, eye, nullptr);
 }
 
 void Display::revise_rest() {
@@ -95,23 +95,31 @@ void Display::run() {
     ++counters_.pictures;
     counters_.repeated += there ? 0 : 1;
     scan_out(at);
-    if (there) on_shown(shown_ - 1, picture_.data());
+    for (std::uint32_t eye = 0; there && eye < job_.eyes; ++eye) {
+      on_shown(shown_ - 1, eye, pictures_[eye].data());
+    }
   }
 }
 
 // The last row is shown before the next picture is due.
 void Display::scan_out(const sc_core::sc_time& due) {
-  const Picture& of = job_.picture(shown_ - 1);
-  const sc_core::sc_time of_row = period_ / (of.view.height + 1);
-  for (int y = 0; y < of.view.height; ++y) {
+  const int height = job_.view.height;
+  const sc_core::sc_time of_row = period_ / (height + 1);
+  for (int y = 0; y < height; ++y) {
     const sc_core::sc_time at = due + static_cast<double>(y) * of_row;
     if (at > sc_core::sc_time_stamp()) sc_core::wait(at - sc_core::sc_time_stamp());
-    const MemoryPort::Ticket row =
-        memory.read(of.pixel_address(0, y), picture_.data() + std::size_t{row_bytes()} * y,
-                    row_bytes(), of.frame_buffer.region);
+    read_row(y);
     ++counters_.rows;
-    memory.wait_for(row);
+    memory.wait_all();
     counters_.rows_late += sc_core::sc_time_stamp() > at + of_row ? 1 : 0;
+  }
+}
+
+void Display::read_row(int y) {
+  for (std::uint32_t eye = 0; eye < job_.eyes; ++eye) {
+    const Picture& of = job_.picture(shown_ - 1, eye);
+    memory.read(of.pixel_address(0, y), pictures_[eye].data() + std::size_t{row_bytes()} * y,
+                row_bytes(), of.frame_buffer.region);
   }
 }
 
@@ -126,11 +134,13 @@ void Display::publish(DataSheet& sheet) {
   SramUses uses = {
       sram_use(kRows, kMemory, {{kHeldRows, "rows"}, {row_bytes(), "B"}}, {width_bits}, kOneOfEach),
       outstanding_table(kMemory, memory.config())};
+  uses.front().count = job_.eyes;
   uses.back().name += " of the display";
   sheet.unit(*this);
   sheet.counters(counters_);
   sheet.sram(uses);
-  const std::uint64_t words = counters_.rows * sram_words(row_bytes(), uses.front().shape);
+  const std::uint64_t words =
+      counters_.rows * job_.eyes * sram_words(row_bytes(), uses.front().shape);
   sheet.accesses(kRows, words, words);
   sheet.port(memory);
   sheet.sram_available(kMemory, sram_bytes(uses, kMemory));

@@ -1,7 +1,8 @@
 // The host and its display, at the machine's side of a stream of frames. Poses come at the
 // display's rate. A frame that is in the memory when a picture is due is shown from then on, read
 // row by row; else the frame before it is shown again. There are two frame buffers: the machine
-// draws into the one that is not shown.
+// draws into the one that is not shown. Of two eyes each has two, and the same row of both is shown
+// at once.
 // Timing: a row is read while the one before it is shown, from a buffer of two.
 #pragma once
 
@@ -36,9 +37,9 @@ class Display : public sc_core::sc_module, public FrameHostIf {
   Display(const sc_core::sc_module_name& name, const FrameJob& job, double rate,
           const sc_core::sc_time& cycle);
 
-  // Called with the number of a frame that is shown, and its bytes as they were read; with rate 0
-  // null.
-  std::function<void(std::uint32_t frame, const std::byte* bytes)> on_shown;
+  // Called for each eye with the number of a frame that is shown, and its bytes as they were read;
+  // with rate 0 null.
+  std::function<void(std::uint32_t frame, std::uint32_t eye, const std::byte* bytes)> on_shown;
   // Called when no frame is under way and the next pose is yet to come, and when it has come.
   std::function<void(bool rests)> on_rest = [](bool) {};
 
@@ -54,7 +55,7 @@ class Display : public sc_core::sc_module, public FrameHostIf {
   struct Counters : CounterSet {
     Counter pictures{*this, "pictures", "pictures", "shown"};
     Counter repeated{*this, "repeated", "pictures", "of these, for want of the next frame"};
-    Counter rows{*this, "rows", "rows", "read"};
+    Counter rows{*this, "rows", "rows", "read, of both eyes where there are two"};
     Counter rows_late{*this, "rows_late", "rows", "of these, not there when they were to be shown"};
   };
   const Counters& counters() const { return counters_; }
@@ -70,6 +71,7 @@ class Display : public sc_core::sc_module, public FrameHostIf {
   void run();  // thread: pictures
   void show_next();
   void scan_out(const sc_core::sc_time& due);
+  void read_row(int y);
   void revise_rest();
   std::uint32_t row_bytes() const;
   // After that instant: one that has passed for every unit, whichever the kernel runs first.
@@ -81,7 +83,7 @@ class Display : public sc_core::sc_module, public FrameHostIf {
   std::uint32_t taken_ = 0, drawn_ = 0, shown_ = 0;  // frames
   bool rests_ = false;
   sc_core::sc_time rests_since_, rested_;
-  std::vector<std::byte> picture_;
+  std::vector<std::vector<std::byte>> pictures_;  // [eye]
   sc_core::sc_event_queue news_;
   Counters counters_;
 };

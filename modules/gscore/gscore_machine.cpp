@@ -148,7 +148,7 @@ void GscoreMachine::publish(DataSheet& sheet) {
     renderers_[c]->publish(sheet);
   }
   sheet.unit(*this);
-  publish_poses(sheet, job_.frames());
+  publish_poses(sheet, job_);
   sheet.sram(queue_uses(config_));
   publish_queues(sheet, passes_, kPasses, "ccus");
   publish_queues(sheet, visible_, kVisible, "ccu.input_slots");

@@ -99,7 +99,7 @@ void StreamingMachine::bind() {
 void StreamingMachine::publish(DataSheet& sheet) {
   publish_units(sheet);
   sheet.unit(*this);
-  publish_poses(sheet, job_.frames());
+  publish_poses(sheet, job_);
   publish_spare_units(sheet);
   for (const Queue& queue : queues_) {
     sheet.sram(queue.use);

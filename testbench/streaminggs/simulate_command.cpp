@@ -352,7 +352,6 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   line.text("--stereo", arguments->stereo,
             "a second eye beside each camera, as ipd=0.064 to its right in world units, with "
             "parallel axes: a frame is two pictures");
-  line.excludes("--stereo", "--stream");
   line.excludes("--view", "--path");
   line.needs("--frames", "--path");
   line.file("--technology", arguments->technology, "table of energy and area");

@@ -1,5 +1,6 @@
-// Frames back to back: each is the golden one and that of the path, whatever the machine, the
-// stalls and the order of processes; what the stream takes is accounted for to the last joule.
+// Frames back to back, of one eye or two: each picture is the golden one and that of the path,
+// whatever the machine, the stalls and the order of processes; what the stream takes is accounted
+// for to the last joule.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdint>
@@ -33,7 +34,9 @@ class PathRun {
     CHECK(done.err.find("Warning") == std::string::npos);
     report = Json::parse(bytes_of(out_.path("out/report.json")));
     for (int i = 0; i < kFrames; ++i) {
-      frames.push_back(bytes_of(out_.path("out/frames/000" + std::to_string(i) + ".png")));
+      const std::string frame = out_.path("out/frames/000" + std::to_string(i));
+      frames.push_back(bytes_of(frame + ".png"));
+      if (report["config"].value("eyes", 1) > 1) frames.push_back(bytes_of(frame + "_right.png"));
     }
     table = bytes_of(out_.path("out/path.csv"));
   }
@@ -49,7 +52,7 @@ class PathRun {
   }
 
   Json report;
-  std::vector<std::string> frames;  // PNG
+  std::vector<std::string> frames;  // [frame, eye] PNG
   std::string table;
 
  private:
@@ -89,12 +92,17 @@ void check_stream(const PathRun& run) {
   const Json& scene = view["scene"];
   CHECK(scene["gaussians"] == 2000);
   constexpr std::uint64_t kPictureBytes = 3 * 97 * 61;
-  CHECK(region_bytes(view, "frame_buffer", "write") +
-            region_bytes(view, "second_frame_buffer", "write") ==
-        kFrames * kPictureBytes);
-  CHECK(asked_bytes(view, "frame_buffer", "display", "read") +
-            asked_bytes(view, "second_frame_buffer", "display", "read") ==
-        stream["pictures"].get<std::uint64_t>() * kPictureBytes);
+  const std::vector<std::string> eyes = run.frames.size() > kFrames
+                                            ? std::vector<std::string>{"", "right_"}
+                                            : std::vector<std::string>{""};
+  for (const std::string& eye : eyes) {
+    const std::string first = eye + "frame_buffer", second = "second_" + first;
+    CHECK(region_bytes(view, first, "write") + region_bytes(view, second, "write") ==
+          kFrames * kPictureBytes);
+    CHECK(asked_bytes(view, first, "display", "read") +
+              asked_bytes(view, second, "display", "read") ==
+          stream["pictures"].get<std::uint64_t>() * kPictureBytes);
+  }
 }
 
 const std::vector<Arguments>& machines() {
@@ -106,7 +114,12 @@ const std::vector<Arguments>& machines() {
                     {"fetch=shared", "vsu.sample_step_voxels=0.5", "sram.shared_bytes=0"}),
       {"--config", "gscore_lossless"},
       with_settings({"--config", "gscore_lossless"}, {"lists.sets=2"}),
-      with_settings({"--config", "gscore_lossless_boxes"}, {"lists.sets=2", "lists.tiles=9"})};
+      with_settings({"--config", "gscore_lossless_boxes"}, {"lists.sets=2", "lists.tiles=9"}),
+      with_settings({"--stereo", "ipd=0.1", "--config", "exact"},
+                    {"group_width_px=32", "group_height_px=32"}),
+      {"--stereo", "ipd=0.1", "--config", "gscore_lossless"},
+      with_settings({"--stereo", "ipd=0.1", "--config", "gscore_lossless_boxes"},
+                    {"lists.sets=2", "lists.tiles=9"})};
   return all;
 }
 
@@ -117,6 +130,7 @@ TEST_CASE("stream: every frame is that of the path, with and without a display, 
   for (const Arguments& machine : machines()) {
     INFO(machine[1] << " " << machine.back());
     const PathRun path(path_of(machine));
+    CHECK(path.frames.size() == (machine[0] == "--stereo" ? 2 : 1) * kFrames);
     for (const char* rate : {"0", kTight}) {
       INFO(rate);
       const PathRun plain = stream_of(machine, rate);
@@ -160,12 +174,16 @@ TEST_CASE("stream: the next frame begins while this one is drawn, where a machin
     INFO(config);
     CHECK(overlaps({"--config", config}).first == kFrames - 1);
   }
-  const Arguments gscore = {"--config", "gscore_lossless"};
-  const auto [one_early, one] = overlaps(gscore);
-  const auto [two_early, two] = overlaps(with_settings(gscore, {"lists.sets=2"}));
-  CHECK(one_early == 0);
-  CHECK(two_early == kFrames - 1);
-  CHECK(two > one);
+  for (const Arguments& gscore :
+       {Arguments{"--config", "gscore_lossless"},
+        Arguments{"--config", "gscore_lossless", "--stereo", "ipd=0.1"}}) {
+    INFO(gscore.back());
+    const auto [one_early, one] = overlaps(gscore);
+    const auto [two_early, two] = overlaps(with_settings(gscore, {"lists.sets=2"}));
+    CHECK(one_early == 0);
+    CHECK(two_early == kFrames - 1);
+    CHECK(two > one);
+  }
 }
 
 // What a second set, two poses and the display are made of stands in the report.
@@ -199,6 +217,10 @@ TEST_CASE("stream: two frames at a time are paid for") {
   CHECK(bytes_of_use(one, "projected passes") == 0);
   CHECK(bytes_of_use(two, "projected passes") > 0);
   CHECK(bytes_of_use(one, "rows shown") == 2 * 3 * 97);
+  const PathRun eyes =
+      stream_of({"--config", "gscore_lossless", "--stereo", "ipd=0.1", "--fit-memories"}, "1000");
+  CHECK(bytes_of_use(eyes, "rows shown") == 2 * 2 * 3 * 97);
+  CHECK(number(eyes.all()["area_mm2"]["poses"]) > number(one.all()["area_mm2"]["poses"]));
 }
 
 // Joules of parts, states and commands add up; the machine's clock and the memory stand while no

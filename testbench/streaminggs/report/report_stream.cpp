@@ -35,6 +35,10 @@ void visit_frame(ReportVisitor& r, std::size_t number, const StreamedPicture& fr
     t.latched_late_s);
   r("psnr_db", "dB", "As `image.psnr_db`.", frame.psnr_db);
   r("ssim", "0..1", "As `image.ssim`.", frame.ssim);
+  r.each(frame.right, [&](const StreamedPicture::Measures& right) {
+    r("right_psnr_db", "dB", "As `image.right_eye.psnr_db`.", right.psnr_db);
+    r("right_ssim", "0..1", "As `image.right_eye.ssim`.", right.ssim);
+  });
   r("equals_streaming_renderer", "bool", "As `image.equals_streaming_renderer`.",
     frame.equals_golden);
   r("empty", "bool", "As `image.empty`.", frame.empty);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -34,8 +35,10 @@ class ResultFolder {
   Path report() const { return path_ / "report.json"; }
   Path view(int number) const { return path_ / fmt::format("view_{}", number); }
 
-  // Files of a camera path, beside the report.
-  Path frame(std::size_t number) const { return frames() / fmt::format("{:04}.png", number); }
+  // Files of a camera path, beside the report. eye: 1 for the right one of two.
+  Path frame(std::size_t number, std::uint32_t eye = 0) const {
+    return frames() / fmt::format("{:04}{}.png", number, eye > 0 ? "_right" : "");
+  }
   Path path_table() const { return path_ / "path.csv"; }
   Path contact_sheet() const { return path_ / "contact_sheet.png"; }
 
@@ -87,7 +90,8 @@ class ResultFolder {
     for (const auto& entry : std::filesystem::directory_iterator(frames(), missing)) {
       std::size_t number = 0;
       const std::string name = entry.path().filename().string();
-      if (std::sscanf(name.c_str(), "%9zu", &number) == 1 && entry.path() == frame(number)) {
+      if (std::sscanf(name.c_str(), "%9zu", &number) == 1 &&
+          (entry.path() == frame(number) || entry.path() == frame(number, 1))) {
         files.push_back(entry.path());
       }
     }

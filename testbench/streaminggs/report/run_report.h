@@ -1,10 +1,12 @@
 // report.json of a run: that of each view, with what is the same for all of them, and all of them.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,7 +38,12 @@ struct PathReport {
 struct StreamedPicture {
   FrameTiming timing;
   double psnr_db = 0, ssim = 0;
-  bool equals_golden = false, empty = false;
+  bool equals_golden = false, empty = false;  // of both eyes where there are two
+  struct Measures {
+    double psnr_db = 0, ssim = 0;
+  };
+  std::optional<Measures> right;  // the right eye's
+  double worst_psnr_db() const { return right ? std::min(psnr_db, right->psnr_db) : psnr_db; }
 };
 
 // Of a camera path whose frames are drawn back to back.

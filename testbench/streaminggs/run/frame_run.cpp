@@ -47,13 +47,15 @@ class Stream {
     machine.host.bind(display_);
     machine.bind_display(display_.memory);
     display_.on_rest = [&memory](bool rests) { memory.rest(rests); };
-    display_.on_shown = [this, &memory](std::uint32_t frame, const std::byte* bytes) {
-      std::vector<std::byte>& into = result_.frames[frame].bytes;
+    for (StreamedFrame& frame : result_.frames) frame.pictures.resize(job.eyes);
+    display_.on_shown = [this, &memory](std::uint32_t frame, std::uint32_t eye,
+                                        const std::byte* bytes) {
+      std::vector<std::byte>& into = result_.frames[frame].pictures[eye];
       into.resize(job_.frame_buffer.bytes);
       if (bytes != nullptr) {
         std::memcpy(into.data(), bytes, into.size());
       } else {
-        memory.read_back(job_.picture(frame).frame_buffer.base, into.data(), into.size());
+        memory.read_back(job_.picture(frame, eye).frame_buffer.base, into.data(), into.size());
       }
     };
   }

@@ -140,8 +140,21 @@ class DrawnFrames {
 
 std::vector<std::filesystem::path> files_of_path(const PathJob& job, const ResultFolder& out) {
   std::vector<std::filesystem::path> files = {out.path_table(), out.contact_sheet()};
-  for (std::size_t i = 0; i < job.frames.size(); ++i) files.push_back(out.frame(i));
+  for (std::size_t i = 0; i < job.frames.size(); ++i) {
+    files.push_back(out.frame(i));
+    if (job.frames[i].eyes_apart != 0) files.push_back(out.frame(i, 1));
+  }
   return files;
+}
+
+void write_frame(const ResultFolder& out, std::size_t number, const Image& left,
+                 const Image* right) {
+  write_image(out.frame(number).string(), left);
+  if (right != nullptr) write_image(out.frame(number, 1).string(), *right);
+  if (number > 0) return;
+  std::vector<std::filesystem::path> kept = {out.frame(0)};
+  if (right != nullptr) kept.push_back(out.frame(0, 1));
+  out.keep_only(kept);
 }
 
 void print_doubt(const PathJob& job, const PreparedScene& scene) {
@@ -178,8 +191,7 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out, b
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(fmt::format("frame {} of {}: {}", i, job.name, error.what()));
     }
-    write_image(out.frame(i).string(), view.frame);
-    if (i == 0) out.keep_only({out.frame(0)});
+    write_frame(out, i, view.frame, view.right ? &view.right->frame : nullptr);
     if (all) {
       print_table_line(view, setting.detail);
       std::fflush(stdout);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "algorithm/image/image.h"
 #include "algorithm/scene/camera.h"
 #include "testbench/streaminggs/report/result_folder.h"
 #include "testbench/streaminggs/run/run_setting.h"
@@ -20,6 +21,11 @@ struct PathJob {
 
 // Every file that run_path() writes, but for the report.
 std::vector<std::filesystem::path> files_of_path(const PathJob& job, const ResultFolder& out);
+
+// Writes the pictures of a frame; those of the first take the place of an earlier run's files.
+// right: of the right eye; null where there is one.
+void write_frame(const ResultFolder& out, std::size_t number, const Image& left,
+                 const Image* right);
 
 // Prints a doubt about the first of its cameras that there is one about.
 void print_doubt(const PathJob& job, const PreparedScene& scene);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,20 +30,35 @@ class Judge {
   Judge(const PreparedScene& scene, const RunConfig& config, DataSheet& left_out)
       : scene_(scene), config_(config), left_out_(left_out) {}
 
-  // bytes: of the frame that the display showed. picture: the frame.
-  StreamedPicture judge(int number, const Camera& camera, const std::vector<std::byte>& bytes,
-                        Image& picture) {
+  struct Judged {
+    StreamedPicture said;
+    Image picture;
+    std::optional<Image> right;
+  };
+
+  // shown: as the display showed it.
+  Judged judge(int number, const Camera& camera, const StreamedFrame& shown) {
     const ViewJob job = view_job(scene_, number, camera, config_);
     const GoldenFrame golden = config_.design->golden(scene_.stored, job.frame, left_out_);
     const ReferencePictures pictures = reference_pictures(
         scene_, job.frame, config_.design->draws_reference() ? &golden.image : nullptr);
-    JudgedFrame judged = judge_frame(scene_, job, pictures, golden, bytes);
-    StreamedPicture out;
-    out.psnr_db = judged.psnr_db;
-    out.ssim = judged.ssim;
-    out.equals_golden = bytes == encode_frame(job.frame.frame_format, golden.image);
-    out.empty = golden.contributing == 0;
-    picture = std::move(judged.frame);
+    JudgedFrame judged = judge_frame(scene_, job, pictures, golden, shown.pictures[0]);
+    const auto equal = [&](std::size_t eye, const Image& expected) {
+      return shown.pictures[eye] == encode_frame(job.frame.frame_format, expected);
+    };
+    Judged out;
+    out.said.psnr_db = judged.psnr_db;
+    out.said.ssim = judged.ssim;
+    out.said.equals_golden = equal(0, golden.image);
+    out.said.empty = golden.contributing == 0;
+    out.picture = std::move(judged.frame);
+    if (job.frame.eyes > 1) {
+      RightEye right = judge_right_eye(scene_, job.frame, golden, shown.pictures[1],
+                                       config_.design->draws_reference());
+      out.said.right = {right.psnr_db, right.ssim};
+      out.said.equals_golden = out.said.equals_golden && equal(1, golden.right);
+      out.right = std::move(right.frame);
+    }
     return out;
   }
 
@@ -129,17 +145,18 @@ void print_frames(const StreamReport& stream) {
   for (std::size_t i = 0; i < stream.frames.size(); ++i) {
     const StreamedPicture& frame = stream.frames[i];
     const FrameTiming& t = frame.timing;
-    fmt::print("{:>5} {:>10.4f} {:>10.4f} {:>10.4f} {:>8.4f} {:>6} {:>8} {:>8}\n", i,
-               1e3 * t.begun_s, 1e3 * t.drawn_s, 1e3 * t.shown_s, 1e3 * t.time_s(),
-               t.held ? "yes" : "NO",
-               std::isinf(frame.psnr_db) ? "equal" : fmt::format("{:.2f}", frame.psnr_db),
-               frame.equals_golden ? "yes" : "NO");
+    fmt::print(
+        "{:>5} {:>10.4f} {:>10.4f} {:>10.4f} {:>8.4f} {:>6} {:>8} {:>8}\n", i, 1e3 * t.begun_s,
+        1e3 * t.drawn_s, 1e3 * t.shown_s, 1e3 * t.time_s(), t.held ? "yes" : "NO",
+        std::isinf(frame.worst_psnr_db()) ? "equal" : fmt::format("{:.2f}", frame.worst_psnr_db()),
+        frame.equals_golden ? "yes" : "NO");
   }
 }
 
 void print_stream(const StreamReport& stream, const ViewResult& all) {
   const StreamSummary& s = stream.summary;
-  fmt::print("\n{} frames along {}, back to back: {} frames a second\n", s.frames.size(),
+  const char* const of_eyes = stream.frames.front().right ? " of two eyes" : "";
+  fmt::print("\n{} frames{} along {}, back to back: {} frames a second\n", s.frames.size(), of_eyes,
              stream.name, rate_in_words(s.frames_per_s));
   fmt::print("from begin to last pixel: worst {} ms (frame {}), p99 {} ms, median {} ms\n",
              in_ms(s.frame_time.worst_s), s.worst_frame, in_ms(s.frame_time_p99_s),
@@ -150,13 +167,14 @@ void print_stream(const StreamReport& stream, const ViewResult& all) {
   std::size_t empty = 0, worst = 0;
   for (std::size_t i = 0; i < stream.frames.size(); ++i) {
     empty += stream.frames[i].empty ? 1 : 0;
-    if (stream.frames[i].psnr_db < stream.frames[worst].psnr_db) worst = i;
+    if (stream.frames[i].worst_psnr_db() < stream.frames[worst].worst_psnr_db()) worst = i;
   }
   print_empty(empty, stream.frames.size(), "frames");
-  if (std::isinf(stream.frames[worst].psnr_db)) {
+  const double worst_db = stream.frames[worst].worst_psnr_db();
+  if (std::isinf(worst_db)) {
     fmt::print("every frame equals its reference picture\n");
   } else {
-    fmt::print("PSNR: worst {:.2f} dB (frame {})\n", stream.frames[worst].psnr_db, worst);
+    fmt::print("PSNR: worst {:.2f} dB (frame {})\n", worst_db, worst);
   }
 }
 
@@ -186,12 +204,10 @@ int run_stream(const PathJob& job, RunSetting& setting, const ResultFolder& out,
   {
     ProgressLine progress;
     for (std::size_t i = 0; i < job.frames.size(); ++i) {
-      Image picture;
-      StreamedPicture frame =
-          judge.judge(static_cast<int>(i), job.frames[i], all.run.stream.frames[i].bytes, picture);
+      auto [frame, picture, right] =
+          judge.judge(static_cast<int>(i), job.frames[i], all.run.stream.frames[i]);
       frame.timing = stream.summary.frames[i];
-      write_image(out.frame(i).string(), picture);
-      if (i == 0) out.keep_only({out.frame(0)});
+      write_frame(out, i, picture, right ? &*right : nullptr);
       if (sheet.shows(i)) {
         sheet.add(picture, fmt::format("{} - {} ms", i, in_ms(frame.timing.time_s())));
       }

@@ -137,11 +137,8 @@ ViewResult view_result(const PreparedScene& scene, const ViewJob& job, Reference
   return view;
 }
 
-namespace {
-
-// The right eye of a frame: its picture as drawn, against the reference picture of what it sees.
-RightEye right_eye_of(const PreparedScene& scene, const FrameJob& job, const GoldenFrame& golden,
-                      const std::vector<std::byte>& bytes, bool draws_reference) {
+RightEye judge_right_eye(const PreparedScene& scene, const FrameJob& job, const GoldenFrame& golden,
+                         const std::vector<std::byte>& bytes, bool draws_reference) {
   const View<float>& view = job.picture(0, 1).view;
   RightEye out;
   out.frame = decode_frame(job.frame_format, view.width, view.height, bytes);
@@ -154,8 +151,6 @@ RightEye right_eye_of(const PreparedScene& scene, const FrameJob& job, const Gol
   out.ssim = ssim(out.frame, out.reference);
   return out;
 }
-
-}  // namespace
 
 ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& camera,
                          const RunConfig& config, const Technology& technology,
@@ -172,8 +167,8 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
   std::optional<RightEye> right;
   if (job.frame.eyes > 1) {
     equal = equal && run.right_frame == encode_frame(job.frame.frame_format, golden.right);
-    right =
-        right_eye_of(scene, job.frame, golden, run.right_frame, config.design->draws_reference());
+    right = judge_right_eye(scene, job.frame, golden, run.right_frame,
+                            config.design->draws_reference());
   }
   JudgedFrame judged = judge_frame(scene, job, pictures, golden, run.frame);
   ViewResult view = view_result(scene, job, std::move(pictures), std::move(golden),

@@ -1,6 +1,7 @@
 // Everything that is known of one simulated view. The terminal and report.json are made from it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -61,6 +62,11 @@ struct RightEye {
   Image frame, reference;
   double psnr_db = 0, ssim = 0;  // infinite where they are equal
 };
+
+// job: of one frame, golden: its golden frame. bytes: of the right eye's frame buffer.
+// draws_reference: the golden picture is the reference picture of the scene as encoded.
+RightEye judge_right_eye(const PreparedScene& scene, const FrameJob& job, const GoldenFrame& golden,
+                         const std::vector<std::byte>& bytes, bool draws_reference);
 
 // Pictures and their measures are those of the left eye where there are two.
 struct ViewResult : ReferencePictures, JudgedFrame {

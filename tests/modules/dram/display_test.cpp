@@ -23,14 +23,15 @@ using sc_core::SC_US;
 constexpr int kWidth = 40, kHeight = 4;
 sc_time a_cycle() { return {1, sc_core::SC_NS}; }
 
-FrameJob job_of(std::uint32_t frames, int width) {
+FrameJob job_of(std::uint32_t frames, int width, std::uint32_t eyes) {
   FrameJob job;
+  job.eyes = eyes;
   job.view.width = width;
   job.view.height = kHeight;
   job.frame_buffer.bytes = std::uint64_t{pixel_bytes(job.frame_format)} * width * kHeight;
-  for (std::uint32_t frame = 1; frame < frames; ++frame) {
+  for (std::uint32_t at = 1; at < frames * eyes; ++at) {
     Picture picture = job;
-    picture.frame_buffer.base = frame % 2 * 65536;
+    picture.frame_buffer.base = (at / eyes % 2 * eyes + at % eyes) * 65536;
     job.following.push_back(picture);
   }
   return job;
@@ -54,26 +55,30 @@ struct Resolution {
 };
 
 struct Bench : Resolution {
-  Bench(std::uint32_t frames, double rate, const DramConfig& config = {}, int width = kWidth)
-      : job(job_of(frames, width)),
+  Bench(std::uint32_t frames, double rate, const DramConfig& config = {}, int width = kWidth,
+        std::uint32_t eyes = 1)
+      : job(job_of(frames, width, eyes)),
         memory("memory", config),
         display("display", job, rate, a_cycle()) {
     display.memory.socket.bind(memory.socket);
-    display.on_shown = [this](std::uint32_t frame, const std::byte* bytes) {
-      if (bytes != nullptr) shown[frame] = bytes[0];
+    display.on_shown = [this](std::uint32_t frame, std::uint32_t eye, const std::byte* bytes) {
+      if (bytes != nullptr) shown[frame * job.eyes + eye] = bytes[0];
     };
     display.on_rest = [this](bool rests) { rest.push_back({sc_core::sc_time_stamp(), rests}); };
   }
-  // Draws a frame of bytes that are its number plus 1, in no time.
+  // Draws a frame in no time: bytes of its pictures are their number among all plus 1.
   void draw(std::uint32_t frame) {
-    const std::vector<std::byte> bytes(job.frame_buffer.bytes, std::byte(frame + 1));
-    memory.load(job.picture(frame).frame_buffer.base, bytes.data(), bytes.size());
+    for (std::uint32_t eye = 0; eye < job.eyes; ++eye) {
+      const std::vector<std::byte> bytes(job.frame_buffer.bytes,
+                                         std::byte(frame * job.eyes + eye + 1));
+      memory.load(job.picture(frame, eye).frame_buffer.base, bytes.data(), bytes.size());
+    }
     display.drawn(frame);
   }
   FrameJob job;
   DramController memory;
   Display display;
-  std::map<std::uint32_t, std::byte> shown;  // first byte, as it was read
+  std::map<std::uint32_t, std::byte> shown;  // [frame, eye] first byte, as it was read
   std::vector<std::pair<sc_time, bool>> rest;
 };
 
@@ -162,6 +167,30 @@ TEST_CASE("display: without a rate every pose is there, a frame is shown when it
   CHECK(display.frames_shown() == 3);
   for (const FrameTimes& times : display.times()) CHECK(times.shown == times.drawn);
   CHECK(display.counters().rows == 0);
+}
+
+TEST_CASE("display: of two eyes the rows of both are shown at once, from two buffers each") {
+  Bench bench(3, 1000, {}, kWidth, 2);
+  Display& display = bench.display;
+  const auto machine = [&] {
+    display.takes_pose(0);
+    bench.draw(0);
+    for (const std::uint32_t frame : {1U, 2U}) {
+      while (!display.pose_known(frame)) sc_core::wait(display.news());
+      display.takes_pose(frame);
+      while (!display.buffer_free(frame)) sc_core::wait(display.news());
+      wait_until(frame + 0.5);
+      bench.draw(frame);
+    }
+  };
+  const Machine thread("machine", machine);
+  sc_core::sc_start();
+  CHECK(display.counters().pictures == 3);
+  CHECK(display.counters().rows == 3 * kHeight);
+  CHECK(display.counters().rows_late == 0);
+  CHECK(display.memory.bytes_read() == 3 * 2 * bench.job.frame_buffer.bytes);
+  REQUIRE(bench.shown.size() == 3 * 2);
+  for (const auto& [picture, byte] : bench.shown) CHECK(byte == std::byte(picture + 1));
 }
 
 // A row of 400 px takes 192 ns of a channel's bus.
