@@ -12,13 +12,14 @@ import tables
 from runs import simulations
 from runs.scenes import find_scene, program_provenance
 from runs.simulations import value_at
-from studies import published
+from studies import headset, published
 from studies.compare_machines import COMPARE_MACHINES
 from studies.stability import STABILITY_TABLE
 from studies.error_against_time import ERROR_AGAINST_TIME
 from studies.fitting import BOUNDARY_STUDY, TRAINING_CURVES
 from studies.found import FAIR_FIGHT, PRESETS
 from studies.frame_costs import BINDING_CHECK, ENERGY, TIMING
+from studies.headset import HEADSET
 from studies.matched import MATCHED_SCENES
 from studies.published import PAPER_CLAIMS, PUBLISHED_FIGURES
 from studies.reproduction import REPRODUCTION
@@ -188,6 +189,32 @@ class WithTheCommand(InFolder):
         kept = (self.folder / "kept" / "compare_machines.jsonl").read_text()
         self.made(COMPARE_MACHINES, *small, "--machines", "gscore", "exact")
         self.assertEqual((self.folder / "kept" / "compare_machines.jsonl").read_text(), kept)
+
+    def test_a_headset_is_drawn_once(self):
+        """Frames back to back and two eyes; what is kept is not drawn again."""
+        words = ("builtin:object?n=200", "--streaminggs", COMMAND, "--out", str(self.folder))
+        words += ("--sizes", "48x32", "--channels", "4", "--rates", "500", "--frames", "2")
+        status, line, _ = self.ended(HEADSET, *words)
+        self.assertEqual(status, 0, line)
+        rows = tables.read_rows(self.folder, "headset_rates")
+        machines = {row["machine"] for row in rows}
+        self.assertEqual((len(rows), len(machines)), (8, 2))
+        rate = {(row["machine"], row["frames"]): float(row["frames/s"]) for row in rows}
+        for machine in machines:
+            back_to_back = rate[machine, "back to back"]
+            self.assertGreater(back_to_back, rate[machine, "alone"])
+            self.assertGreater(back_to_back, rate[machine, "two eyes, back to back"])
+        for row in tables.read_rows(self.folder, "headset_second_eye"):
+            self.assertTrue(0 < float(row["bytes"]) < 1, row)
+        self.assertEqual(len(tables.read_rows(self.folder, "headset_ratios")), 4)
+        for row in tables.read_rows(self.folder, "headset_power"):
+            self.assertEqual(row["missed"], "0")
+            shares = [float(row[f"{state}, time"]) for state in headset.STATES]
+            self.assertAlmostEqual(sum(shares), 1, 3)
+            watts = [float(row[f"{of}, W"]) for of in (*headset.STATES, "commands")]
+            self.assertAlmostEqual(sum(watts), float(row["memory W"]))
+        with mock.patch.object(headset, "call", side_effect=AssertionError("drawn again")):
+            self.assertEqual(self.ended(HEADSET, *words)[0], 0)
 
     def test_published_figures_stand_beside_ours(self):
         small = {
