@@ -138,8 +138,9 @@ TEST_CASE("refusals: keys, types, ranges and combinations") {
                     {"sorting_units: got 3", "divisor or a multiple of hfus 4"});
   check_set_refused("paper", {"vsu.samples_per_cycle=1"},
                     {"vsu.sample_step_voxels: got 0 with vsu.samples_per_cycle 1, expected more"});
-  check_set_refused("paper", {"vsu.samples_per_cycle=1", "vsu.sample_step_voxels=1e-7"},
-                    {"vsu.sample_step_voxels: got 1e-07, expected at least", "the scene reaches"});
+  check_set_refused(
+      "paper", {"vsu.samples_per_cycle=1", "vsu.sample_step_voxels=1e-7", "sram.shared_bytes=0"},
+      {"vsu.sample_step_voxels: got 1e-07, expected at least", "the scene reaches"});
   check_set_refused("paper", {"vsu.table_bytes=8"},
                     {"vsu.table_bytes: got 8, expected at least 16", "vsu.table_banks 2"});
   check_set_refused("gscore", {"storage.encoding=vq"}, {"machine gscore has no codebooks"});
