@@ -287,7 +287,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   bench.check_operations("rendering", "register_bit",
                          8 * kSplatEntryBytes * taken +
                              8 * pixel_bytes(plan.job.frame_format) * pixels +
-                             late_bits * 16 * blends);
+                             late_bits * expected.contributors);
   const std::uint64_t of_place = memories_of_a_place(plan);
   if (of_place > 1) {
     bench.check_operations(

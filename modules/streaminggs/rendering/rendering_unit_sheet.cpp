@@ -210,14 +210,14 @@ void RenderingUnit::publish_pixels(DataSheet& sheet) {
     pixels += width * height;
   }
   const std::uint64_t blends = schedule_.counters().subtile_blends;
+  const std::uint64_t blended = counters_.contributors;
   const Datapath blend =
       blend_pipeline(config_, in_16_bits(config_.precision) ? built_for_.half : built_for_.single);
   if (config_.write_wait_cycles(loop_cycles_with_accesses(blend)) > 0) {
     // A pixel's new state waits for the port.
     const double bits = 8.0 * config_.pixel_state_bytes();
     sheet.part("rendering", "register_bit", bits * pixel_banks(config_, built_for_.group), 1);
-    sheet.operations("rendering", "register_bit",
-                     bits * kSubtilePixels * static_cast<double>(blends));
+    sheet.operations("rendering", "register_bit", bits * static_cast<double>(blended));
   }
   const auto passed = static_cast<double>(pixels);
   publish_selection(sheet, "rendering",
@@ -233,7 +233,6 @@ void RenderingUnit::publish_pixels(DataSheet& sheet) {
   sheet.operations("rendering", "register_bit", bits_of_pixel * passed);
   sheet.datapath(drain_pipeline(config_, job_.frame_format, built_for_.single), pixels);
   // Draining reads the places of a row, clearing writes all.
-  const std::uint64_t blended = counters_.contributors;
   sheet.accesses("pixel state", blended + finished_pixels_ + kSubtilePx * drained,
                  blended + kSubtilePixels * cleared);
   sheet.accesses(kFinishedPixels, blends, blends + cleared);

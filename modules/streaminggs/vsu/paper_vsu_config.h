@@ -27,7 +27,7 @@ struct PaperVsuConfig {
   std::uint32_t adjacency_lines = 256, adjacency_destinations = 7;
   std::uint32_t groups_ahead = 1;
   std::uint32_t table_bytes = 4096;
-  std::uint32_t node_cache_bytes = 1536;
+  std::uint32_t node_cache_bytes = 2048;
   std::uint32_t node_fetches = 7;
   std::uint32_t record_cache_bytes = 1024;
   std::uint32_t cut_cache_bytes = 256;
