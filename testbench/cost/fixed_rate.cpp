@@ -12,9 +12,14 @@ std::uint64_t cycles_in(const Memspec& memspec, double seconds) {
   return static_cast<std::uint64_t>(seconds / (kNs * memspec.clock_period_ns));
 }
 
+// Each refresh is simulated; of a longer rest as much as has thousands of them, and scaled.
 double most_pj_of_power_down(DramConfig dram, const Memspec& memspec, std::uint64_t cycles) {
+  constexpr std::uint64_t kMostCycles = 100'000'000;
   dram.between_frames = BetweenFrames::kPowerDown;
-  return rest_of(dram, memspec, cycles).energy.most_pj;
+  const std::uint64_t simulated = std::min(cycles, kMostCycles);
+  const double pj = rest_of(dram, memspec, simulated).energy.most_pj;
+  return simulated == cycles ? pj
+                             : pj * static_cast<double>(cycles) / static_cast<double>(simulated);
 }
 
 Rest rest_up_to_power_down(const DramConfig& dram, double seconds) {
