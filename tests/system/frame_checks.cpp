@@ -189,8 +189,9 @@ void check_bytes(const Json& view) {
           second_half * of(unit, "second_halves"));
   }
   if (view["config"]["machine"] == "paper") {
-    constexpr std::uint64_t kSplat = 48, kLine = 32;
-    CHECK(region_bytes(view, "spill", "write") == kSplat * total(view, "entries_spilled"));
+    const std::uint64_t splat = view["config"]["splats"] == "fp16" ? 36 : 48;
+    constexpr std::uint64_t kLine = 32;
+    CHECK(region_bytes(view, "spill", "write") == splat * total(view, "entries_spilled"));
     if (total(view, "splats_saturated") == 0) {
       CHECK(region_bytes(view, "spill", "read") == region_bytes(view, "spill", "write"));
     }
@@ -225,7 +226,8 @@ void check_bounds(const Json& view) {
   for (const Json& unit : view["units"]) {
     CHECK(ceil_div(of(unit, "coarse_tests"), parts * count(hfu["cfus"])) * coarse_interval <=
           frame);
-    CHECK(of(unit, "fine_tests") * fine_interval <= parts * eyes_of(config) * frame);
+    CHECK(ceil_div(of(unit, "fine_tests"), count(hfu["ffus"])) * fine_interval <=
+          parts * eyes_of(config) * frame);
     CHECK(ceil_div(of(unit, "subtile_blends"), clusters) <= frame);
     if (of(unit, "inserts") > 0) {
       CHECK((of(unit, "inserts") + of(unit, "delete_mins") + of(unit, "delete_maxs")) *

@@ -139,6 +139,7 @@ class HostileRun {
     for (const std::string& setting : drawn) {
       const std::string key = setting.substr(0, setting.find('='));
       keys.push_back(key.substr(key.rfind('.') + 1));
+      if (keys.back() == "voxel_rule") keys.emplace_back("voxel_size");
     }
     return keys;
   }
