@@ -140,11 +140,10 @@ struct MemoryResult {
 
 // A frame of a stream. Seconds since the start.
 struct StreamedFrame {
-  double pose_s = 0;                             // its pose was there
-  double begun_s = 0;                            // the machine read the pose
-  double drawn_s = 0;                            // its last pixel was in the memory
-  double shown_s = 0;                            // its first row was read for the display
-  std::vector<std::vector<std::byte>> pictures;  // [eye] as they were shown
+  double pose_s = 0;   // its pose was there
+  double begun_s = 0;  // the machine read the pose
+  double drawn_s = 0;  // its last pixel was in the memory
+  double shown_s = 0;  // its first row was read for the display
 };
 struct FrameResult;
 struct StreamResult {

@@ -2,7 +2,6 @@
 #include "testbench/streaminggs/run/frame_run.h"
 
 #include <chrono>
-#include <cstring>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -38,25 +37,29 @@ struct Outputs {
   OutputFile* dram_trace = nullptr;
 };
 
+// How the frames of a stream are shown; none of a single frame.
+struct Shown {
+  double rate;
+  ShownPictures* pictures;
+};
+
 // Display of a stream in the simulation, and the frames that it shows.
 class Stream {
  public:
-  Stream(const FrameJob& job, double rate, Machine& machine, DramController& memory)
-      : job_(job), rate_(rate), display_("display", job, rate, machine.clock().period()) {
+  Stream(const FrameJob& job, const Shown& shown, Machine& machine, DramController& memory)
+      : job_(job),
+        rate_(shown.rate),
+        display_("display", job, shown.rate, machine.clock().period()) {
     result_.frames.resize(job.frames());
     machine.host.bind(display_);
     machine.bind_display(display_.memory);
     display_.on_rest = [&memory](bool rests) { memory.rest(rests); };
-    for (StreamedFrame& frame : result_.frames) frame.pictures.resize(job.eyes);
-    display_.on_shown = [this, &memory](std::uint32_t frame, std::uint32_t eye,
-                                        const std::byte* bytes) {
-      std::vector<std::byte>& into = result_.frames[frame].pictures[eye];
-      into.resize(job_.frame_buffer.bytes);
-      if (bytes != nullptr) {
-        std::memcpy(into.data(), bytes, into.size());
-      } else {
-        memory.read_back(job_.picture(frame, eye).frame_buffer.base, into.data(), into.size());
-      }
+    display_.on_shown = [&job, &memory, pictures = shown.pictures](
+                            std::uint32_t frame, std::uint32_t eye, const std::byte* bytes) {
+      if (bytes != nullptr) return pictures->write(frame, eye, bytes);
+      std::vector<std::byte> drawn(job.frame_buffer.bytes);
+      memory.read_back(job.picture(frame, eye).frame_buffer.base, drawn.data(), drawn.size());
+      pictures->write(frame, eye, drawn.data());
     };
   }
 
@@ -97,10 +100,9 @@ class Stream {
   StreamResult result_;
 };
 
-// rate: of the display that shows the frames of a stream; none for a single frame.
 FrameResult simulate(const MachineDesign& design, const FrameJob& job, const MemoryImage& image,
-                     const DramConfig& dram, std::optional<double> rate, const BuildOptions& build,
-                     const Outputs& outputs) {
+                     const DramConfig& dram, const std::optional<Shown>& shown,
+                     const BuildOptions& build, const Outputs& outputs) {
   use_femtosecond_resolution();
   sc_core::sc_report_handler::set_actions(sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
   fail_child_on_sc_error();
@@ -113,7 +115,7 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
   check_sram_budget(*machine);
   for (auto& socket : machine->memory) socket.bind(memory.socket);
   std::optional<Stream> stream;
-  if (rate) stream.emplace(job, *rate, *machine, memory);
+  if (shown) stream.emplace(job, *shown, *machine, memory);
   const Publisher sheets = [&](DataSheet& sheet) {
     machine->publish(sheet);
     if (stream) stream->publish(sheet);
@@ -175,7 +177,8 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
 }
 
 FrameResult run(const MachineDesign& design, const FrameJob& job, const MemoryImage& image,
-                const DramConfig& dram, std::optional<double> rate, const RunOptions& options) {
+                const DramConfig& dram, const std::optional<Shown>& shown,
+                const RunOptions& options) {
   const auto began = std::chrono::steady_clock::now();
   // Made here, so that nothing is left of them whatever becomes of the child.
   OutputSet files;
@@ -185,7 +188,7 @@ FrameResult run(const MachineDesign& design, const FrameJob& job, const MemoryIm
   outputs.timeline_groups = options.timeline_groups;
   if (!options.dram_trace_path.empty()) outputs.dram_trace = &files.add(options.dram_trace_path);
   const std::string bytes = in_child(
-      [&] { return to_wire(simulate(design, job, image, dram, rate, options.build, outputs)); });
+      [&] { return to_wire(simulate(design, job, image, dram, shown, options.build, outputs)); });
   files.commit();
   FrameResult result = from_wire(bytes);
   result.wall_s = seconds_since(began);
@@ -210,8 +213,8 @@ FrameResult run_frame(const MachineDesign& design, const FrameJob& job, const Me
 
 FrameResult simulate_stream(const MachineDesign& design, const FrameJob& job,
                             const MemoryImage& image, const DramConfig& dram, double rate,
-                            const RunOptions& options) {
-  return run(design, job, image, dram, rate, options);
+                            const RunOptions& options, ShownPictures& shown) {
+  return run(design, job, image, dram, Shown{rate, &shown}, options);
 }
 
 }  // namespace sgs

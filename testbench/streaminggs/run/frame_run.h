@@ -9,6 +9,7 @@
 #include "modules/dram/dram_config.h"
 #include "modules/machine_design.h"
 #include "testbench/result/frame_result.h"
+#include "testbench/streaminggs/run/shown_pictures.h"
 #include "testbench/timeline/activity_track.h"
 
 namespace sgs {
@@ -28,10 +29,11 @@ FrameResult run_frame(const MachineDesign& design, const FrameJob& job, const Me
                       const DramConfig& dram, const RunOptions& options);
 
 // The frames of a job back to back in one simulation, shown `rate` times a second; 0: each as soon
-// as it is drawn, in no time. All of the result but its stream is of all frames together.
+// as it is drawn, in no time. All of the result but its stream is of all frames together. shown:
+// takes their pictures.
 FrameResult simulate_stream(const MachineDesign& design, const FrameJob& job,
                             const MemoryImage& image, const DramConfig& dram, double rate,
-                            const RunOptions& options);
+                            const RunOptions& options, ShownPictures& shown);
 
 // As run_frame() in this process, which can do so once, and without files. For a child of its own
 // kind (testbench/process/child_process.h): an error of SystemC ends it.

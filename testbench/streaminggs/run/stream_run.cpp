@@ -36,27 +36,31 @@ class Judge {
     std::optional<Image> right;
   };
 
-  // shown: as the display showed it.
-  Judged judge(int number, const Camera& camera, const StreamedFrame& shown) {
+  Judged judge(int number, const Camera& camera, const ShownPictures& shown) {
+    const auto bytes_of = [&](std::uint32_t eye) {
+      return shown.read(static_cast<std::uint32_t>(number), eye);
+    };
+    const std::vector<std::byte> left = bytes_of(0);
     const ViewJob job = view_job(scene_, number, camera, config_);
     const GoldenFrame golden = config_.design->golden(scene_.stored, job.frame, left_out_);
     const ReferencePictures pictures = reference_pictures(
         scene_, job.frame, config_.design->draws_reference() ? &golden.image : nullptr);
-    JudgedFrame judged = judge_frame(scene_, job, pictures, golden, shown.pictures[0]);
-    const auto equal = [&](std::size_t eye, const Image& expected) {
-      return shown.pictures[eye] == encode_frame(job.frame.frame_format, expected);
+    JudgedFrame judged = judge_frame(scene_, job, pictures, golden, left);
+    const auto equal = [&](const std::vector<std::byte>& bytes, const Image& expected) {
+      return bytes == encode_frame(job.frame.frame_format, expected);
     };
     Judged out;
     out.said.psnr_db = judged.psnr_db;
     out.said.ssim = judged.ssim;
-    out.said.equals_golden = equal(0, golden.image);
+    out.said.equals_golden = equal(left, golden.image);
     out.said.empty = golden.contributing == 0;
     out.picture = std::move(judged.frame);
     if (job.frame.eyes > 1) {
-      RightEye right = judge_right_eye(scene_, job.frame, golden, shown.pictures[1],
-                                       config_.design->draws_reference());
+      const std::vector<std::byte> bytes = bytes_of(1);
+      RightEye right =
+          judge_right_eye(scene_, job.frame, golden, bytes, config_.design->draws_reference());
       out.said.right = {right.psnr_db, right.ssim};
-      out.said.equals_golden = out.said.equals_golden && equal(1, golden.right);
+      out.said.equals_golden = out.said.equals_golden && equal(bytes, golden.right);
       out.right = std::move(right.frame);
     }
     return out;
@@ -188,10 +192,11 @@ int run_stream(const PathJob& job, RunSetting& setting, const ResultFolder& out,
   FrameJob frames;
   naming_origins(config, [&] { frames = config.design->stream(scene.stored, job.frames); });
   check_capacity(frames, config.dram);
+  ShownPictures shown(frames);
   ViewResult all;
   all.image_hash = scene.image_hash;
   all.run = simulate_stream(*config.design, frames, scene.stored.image, config.dram, job.frame_rate,
-                            setting.options);
+                            setting.options, shown);
   account(all, config.dram, setting.technology);
   LeftOutCollector left_out(all.left_out);
   list_left_out(scene.stored, all.run.machine, left_out);
@@ -204,8 +209,7 @@ int run_stream(const PathJob& job, RunSetting& setting, const ResultFolder& out,
   {
     ProgressLine progress;
     for (std::size_t i = 0; i < job.frames.size(); ++i) {
-      auto [frame, picture, right] =
-          judge.judge(static_cast<int>(i), job.frames[i], all.run.stream.frames[i]);
+      auto [frame, picture, right] = judge.judge(static_cast<int>(i), job.frames[i], shown);
       frame.timing = stream.summary.frames[i];
       write_frame(out, i, picture, right ? &*right : nullptr);
       if (sheet.shows(i)) {

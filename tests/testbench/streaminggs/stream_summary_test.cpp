@@ -22,10 +22,10 @@ TEST_CASE(
     "stream: a frame behind a repeated picture is missed, and latency counts it from there on") {
   // Pictures at 10, 20, ... ms. The third frame begins 4 ms after its pose was measured, and comes
   // too late for 30 and 40 ms.
-  const FrameResult run = stream_of({{0, 0, 0.006, 0.010, {}},
-                                     {0.010, 0.010, 0.0195, 0.020, {}},
-                                     {0.020, 0.024, 0.041, 0.050, {}},
-                                     {0.030, 0.041, 0.049, 0.060, {}}});
+  const FrameResult run = stream_of({{0, 0, 0.006, 0.010},
+                                     {0.010, 0.010, 0.0195, 0.020},
+                                     {0.020, 0.024, 0.041, 0.050},
+                                     {0.030, 0.041, 0.049, 0.060}});
   const StreamSummary s = summarise(run, 100);
   CHECK(s.missed == 1);
   const bool held[] = {true, true, false, true};
@@ -52,8 +52,7 @@ TEST_CASE(
 }
 
 TEST_CASE("stream: without a rate every frame is held, and its latency is its own") {
-  const StreamSummary s =
-      summarise(stream_of({{0, 0, 0.006, 0.006, {}}, {0, 0.004, 0.011, 0.011, {}}}), 0);
+  const StreamSummary s = summarise(stream_of({{0, 0, 0.006, 0.006}, {0, 0.004, 0.011, 0.011}}), 0);
   CHECK(s.missed == 0);
   CHECK(s.latency.worst_s == Approx(0.007));
   CHECK(s.latched_late.worst_s == Approx(0.007));
