@@ -162,7 +162,10 @@ TEST_CASE("refusals: two eyes where there is one, and axes that are not parallel
     arguments.insert(arguments.end(), more.begin(), more.end());
     check_not_started(arguments, words);
   };
-  check({"ipd=0.06", "--config", "paper"}, {"--stereo", "one picture a frame", "exact or gscore"});
+  for (const Arguments& paths : {Arguments{}, Arguments{"--path", "builtin:path", "--stream"}}) {
+    check(joined({"ipd=0.06", "--config", "paper"}, paths),
+          {"--stereo", "one picture a frame", "exact or gscore"});
+  }
   check({"ipd=0.06", "--set", "merge.on_overflow=blend_early"}, {"blend_early with eyes 2"});
   for (const char* text :
        {"0.06", "ipd=", "ipd=x", "ipd=0", "ipd=-1", "ipd=2e6", "ipd=nan", "ipd=0.06,vergence=2"}) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/shared_inputs.h"
 #include "tests/system/frame_checks.h"
 #include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"
@@ -33,8 +34,11 @@ class PathRun {
     REQUIRE(done.status == 0);
     CHECK(done.err.find("Warning") == std::string::npos);
     report = Json::parse(bytes_of(out_.path("out/report.json")));
-    for (int i = 0; i < kFrames; ++i) {
-      const std::string frame = out_.path("out/frames/000" + std::to_string(i));
+    const Json& drawn = report.contains("stream") ? stream()["frames"] : report["views"];
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      const std::string number = std::to_string(i);
+      const std::string frame =
+          out_.path("out/frames/" + std::string(4 - number.size(), '0') + number);
       frames.push_back(bytes_of(frame + ".png"));
       if (report["config"].value("eyes", 1) > 1) frames.push_back(bytes_of(frame + "_right.png"));
     }
@@ -351,6 +355,58 @@ TEST_CASE("stream: an independent checker accepts the commands of a memory that 
         run_program(std::string(SGS_BIN) + "/tb_dram", {"--check", scratch.path("trace")});
     INFO(checked.out << checked.err);
     CHECK(checked.status == 0);
+  }
+}
+
+// A path of 24 frames of two eyes, as fast as it goes, and shown so fast that rows are read while
+// frames are drawn, with stalls and processes in another order: each picture is its reference's, to
+// the last bit of a float.
+void check_two_eyes_of(const std::string& scene, const std::string& path) {
+  constexpr std::size_t kPairs = 24;
+  for (const char* machine : {"exact", "gscore_lossless"}) {
+    INFO(machine);
+    const Arguments common = with_settings(
+        {scene, "--path", path, "--frames", std::to_string(kPairs), "--size", "96x54", "--config",
+         machine, "--stream", "--stereo", "ipd=0.064", "--fit-memories", "--cache", "off"},
+        {"framebuffer=rgb32f"});
+    const auto check_equal = [&](const Arguments& more) {
+      const PathRun run(joined(common, more));
+      CHECK(run.frames.size() == 2 * kPairs);
+      CHECK(run.stream()["frames"].size() == kPairs);
+      for (const Json& frame : run.stream()["frames"]) {
+        CHECK(frame["equals_streaming_renderer"] == true);
+        CHECK(frame["empty"] == false);
+        CHECK(frame["psnr_db"].is_null());
+        CHECK(frame["right_psnr_db"].is_null());
+      }
+      return run.frames;
+    };
+    CHECK(check_equal({}) ==
+          check_equal({"--frame-rate", "500", "--stalls", "0.1", "--process-order", "1"}));
+  }
+}
+void check_two_eyes_of_shared(const std::string& name) {
+  check_two_eyes_of(shared_scene(name), shared_path("cameras/" + name + ".json"));
+}
+TEST_CASE("stream: two eyes, 24 frames of truck", "[nightly]") {
+  check_two_eyes_of_shared("truck");
+}
+TEST_CASE("stream: two eyes, 24 frames of playbot", "[nightly]") {
+  check_two_eyes_of_shared("playbot");
+}
+TEST_CASE("stream: two eyes, 24 frames of platform", "[nightly]") {
+  check_two_eyes_of_shared("platform");
+}
+TEST_CASE("stream: two eyes, 24 frames of yard", "[nightly]") { check_two_eyes_of_shared("yard"); }
+TEST_CASE("stream: two eyes, 24 frames of park", "[nightly]") { check_two_eyes_of_shared("park"); }
+TEST_CASE("stream: two eyes, 24 frames of garden", "[nightly]") {
+  check_two_eyes_of_shared("garden");
+}
+TEST_CASE("stream: two eyes, 24 frames of made scenes", "[nightly]") {
+  for (const char* scene :
+       {"builtin:object?n=60000", "builtin:outdoor?n=100000", "builtin:capture?n=100000"}) {
+    INFO(scene);
+    check_two_eyes_of(scene, "builtin:path");
   }
 }
 
