@@ -442,10 +442,11 @@ TEST_CASE("configuration: a view that fails is named, loses no other, and ends w
   std::set<std::string> paths;
   add_paths(report, "", paths);
   add_paths(Json::parse(bytes_of(scratch.path("path/report.json"))), "", paths);
-  REQUIRE(run_streaminggs({"simulate", "builtin:object?n=100", "--size", "32x18", "--path",
-                           "builtin:path", "--frames", "2", "--stream", "--frame-rate", "90",
-                           "--out", scratch.path("stream")})
-              .status == 0);
+  REQUIRE(
+      run_streaminggs({"simulate", "builtin:object?n=100", "--size", "32x18", "--path",
+                       "builtin:path", "--frames", "2", "--stream", "--frame-rate", "90",
+                       "--stereo", "ipd=0.1", "--fit-memories", "--out", scratch.path("stream")})
+          .status == 0);
   add_paths(Json::parse(bytes_of(scratch.path("stream/report.json"))), "", paths);
   check_entries(
       described_entries(run_streaminggs({"describe"}).out, "| entry of report.json of all"), paths);

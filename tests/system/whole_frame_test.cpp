@@ -33,18 +33,21 @@ TEST_CASE("whole frame: the same pixels with and without stalls") {
                         {"group_width_px=32", "group_height_px=32"});
       const Simulation plain(common);
       plain.check();
+      bool slower = false;  // a few stalls may send the memory its commands in a better order
       for (const Arguments& variant :
            {Arguments{"--stalls", "0.1"}, Arguments{"--stalls", "0.3", "--seed", "2"}}) {
         const Simulation other(joined(common, variant));
         other.check();
         REQUIRE(other.views().size() == plain.views().size());
-        bool slower = false;
+        bool stalled = false;
         for (std::size_t v = 0; v < plain.views().size(); ++v) {
           CHECK(other.frame(v) == plain.frame(v));
+          stalled = stalled || frame_cycles(other.views()[v]) != frame_cycles(plain.views()[v]);
           slower = slower || frame_cycles(other.views()[v]) > frame_cycles(plain.views()[v]);
         }
-        CHECK(slower);
+        CHECK(stalled);
       }
+      CHECK(slower);
     }
   }
 }
