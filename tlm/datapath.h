@@ -25,6 +25,20 @@ struct BetweenLanes {
   std::uint32_t written = 0, selected = 0;
 };
 
+// From the arrival of values that are read when they are needed to the end of what depends on
+// them, in cycles of an item.
+struct DatapathLoop {
+  std::uint32_t arrival = 0, end = 0;
+
+  std::uint32_t cycles() const { return end - arrival; }
+};
+
+inline std::uint32_t longest_of(const std::vector<DatapathLoop>& loops) {
+  std::uint32_t longest = 0;
+  for (const DatapathLoop& loop : loops) longest = std::max(longest, loop.cycles());
+  return longest;
+}
+
 struct Datapath {
   std::string name;       // what it does to an item: "coarse", "chunk_test"
   std::string component;  // whose square millimetres and joules
@@ -40,9 +54,8 @@ struct Datapath {
   std::vector<BesideLanes> beside;
   BetweenLanes between;
   std::uint32_t set_bits = 0;  // bits of registers that all copies read: numbers of frame, group
-  // Latency of an item from beginning to end; and latency of its loop, from a value that is read
-  // when it is needed to the end of what depends on it.
-  std::uint32_t depth_cycles = 0, loop_cycles = 0;
+  std::uint32_t depth_cycles = 0;   // latency of an item from beginning to end
+  std::vector<DatapathLoop> loops;  // of values that come together
 
   // The part of this kind; a new one without operations where there is none yet.
   BesideLanes& part_of(const std::string& kind) {
@@ -53,6 +66,8 @@ struct Datapath {
   }
 
   std::uint64_t all_lanes() const { return std::uint64_t{lanes} * copies; }
+
+  std::uint32_t loop_cycles() const { return longest_of(loops); }
 
   // Cycles that the lanes of one copy are busy with an item: the next can start so much later.
   std::uint64_t interval_cycles() const { return (used_macs + std::uint64_t{lanes} - 1) / lanes; }

@@ -33,10 +33,12 @@ inline T log2_falloff(const Log2Conic<T>& conic, T dx, T dy) {
 // also where power is not a number (inf - inf, for splats wider than 10^18 px).
 template <class T>
 inline T alpha_of(T log2_falloff, T falloff, T opacity) {
-  const T alpha = min_of(T(opacity * falloff), constant<T>(kAlphaMax));
-  // Two selections rather than one of two conditions: compilers vectorise these.
+  const T uncut = T(opacity * falloff);
+  const T alpha = min_of(uncut, constant<T>(kAlphaMax));
+  // Two selections rather than one of two conditions: compilers vectorise these. The second asks
+  // what the first minimum is of, so that hardware need not wait for it.
   const T falling = log2_falloff > T(0.0F) ? T(0.0F) : alpha;
-  return falling >= constant<T>(kAlphaMin) ? falling : T(0.0F);
+  return uncut >= constant<T>(kAlphaMin) ? falling : T(0.0F);
 }
 
 template <class T>

@@ -151,7 +151,7 @@ inline void schedule(Datapath& path, const std::vector<LaneStep>& steps,
   build_for(path, steps, folded.schedule, interval);
   path.between = between_lanes(folded.wiring, value_bits);
   path.depth_cycles = folded.schedule.cycles;
-  path.loop_cycles = folded.schedule.loop_cycles;
+  path.loops = folded.schedule.loops;
 }
 
 // Registers for the constants of the steps: of the group that is worked on and of the next, which

@@ -63,13 +63,13 @@ class Scheduler {
     for (const std::uint32_t step : order) {
       std::uint32_t ready = 0;
       for (const std::uint32_t from : before[step]) ready = std::max(ready, ends[from]);
-      ends[step] = place(steps_[step].by, ready, in_order);
+      ends[step] = place(step, ready, in_order);
     }
     return ends;
   }
 
  private:
-  std::uint32_t latency(std::uint32_t step) const { return cycles_of(steps_[step].by, latencies_); }
+  std::uint32_t latency(std::uint32_t step) const { return latency_of(steps_[step], latencies_); }
 
   // Longest from each step's beginning to the end, over these edges.
   std::vector<std::uint32_t> paths(const Edges& edges, bool in_order) const {
@@ -84,8 +84,9 @@ class Scheduler {
   }
 
   // Backward a step begins where, forward, it ends: a part is taken at the same distance from it.
-  std::uint32_t place(StepBy by, std::uint32_t ready, bool in_order) {
-    const std::uint32_t latency = cycles_of(by, latencies_);
+  std::uint32_t place(std::uint32_t step, std::uint32_t ready, bool in_order) {
+    const StepBy by = steps_[step].by;
+    const std::uint32_t latency = this->latency(step);
     if (part_kind(by) == StepBy::kOutside) return ready + latency;
     std::vector<std::uint32_t>& busy = busy_[kind(by)];
     for (std::uint32_t cycle = ready; cycle < ready + parts_.interval_cycles; ++cycle) {
@@ -143,18 +144,25 @@ void arrive(const std::vector<LaneStep>& steps, FoldedSchedule& schedule) {
   }
 }
 
-std::uint32_t longest_loop(const std::vector<LaneStep>& steps, const Edges& before,
-                           const FoldedSchedule& schedule, const OperationLatencies& latencies) {
-  constexpr std::uint32_t kNever = ~0U;
-  std::vector<std::uint32_t> since(steps.size(), kNever);  // earliest arrival that it depends on
-  std::uint32_t longest = 0;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    if (steps[i].comes_with > 0) since[i] = schedule.begins[i];
-    for (const std::uint32_t from : before[i]) since[i] = std::min(since[i], since[from]);
-    if (since[i] == kNever) continue;
-    longest = std::max(longest, schedule.begins[i] + cycles_of(steps[i].by, latencies) - since[i]);
+std::vector<DatapathLoop> loops_of(const std::vector<LaneStep>& steps, const Edges& before,
+                                   const FoldedSchedule& schedule,
+                                   const OperationLatencies& latencies) {
+  std::uint32_t lists = 0;
+  for (const LaneStep& step : steps) lists = std::max(lists, step.comes_with);
+  std::vector<DatapathLoop> loops(lists);
+  for (std::uint32_t list = 1; list <= lists; ++list) {
+    DatapathLoop& loop = loops[list - 1];
+    std::vector<bool> depends(steps.size());
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const bool comes = steps[i].comes_with == list;
+      if (comes) loop.arrival = schedule.begins[i];
+      depends[i] = comes || std::any_of(before[i].begin(), before[i].end(),
+                                        [&](std::uint32_t from) { return depends[from]; });
+      if (!depends[i]) continue;
+      loop.end = std::max(loop.end, schedule.begins[i] + cycles_of(steps[i].by, latencies));
+    }
   }
-  return longest;
+  return loops;
 }
 
 constexpr int kPasses = 6;
@@ -206,12 +214,18 @@ class Mover {
     return schedule_.begins[step] + cycles_of(steps_[step].by, latencies_);
   }
 
+  // When it takes its sources: what comes from outside is read before it comes.
+  std::uint32_t taken_from(std::uint32_t step) const {
+    const bool is_outside = steps_[step].by == StepBy::kOutside;
+    return schedule_.begins[step] - (is_outside ? latency_of(steps_[step], latencies_) : 0);
+  }
+
   // The last cycle in which a step can begin so that its value is there in time.
   std::uint32_t last_begin(std::uint32_t step) const {
     const std::uint32_t latency = cycles_of(steps_[step].by, latencies_);
     std::uint32_t last = schedule_.cycles - latency;
     for (const std::uint32_t to : taken_by_[step]) {
-      const std::uint32_t begin = to == sum_of_[step] ? last_begin(to) : schedule_.begins[to];
+      const std::uint32_t begin = to == sum_of_[step] ? last_begin(to) : taken_from(to);
       last = std::min(last, begin - latency);
     }
     return last;
@@ -307,7 +321,7 @@ FoldedSchedule folded_schedule(const std::vector<LaneStep>& steps, const FoldedP
   }
   follow(steps, latencies, out);
   arrive(steps, out);
-  out.loop_cycles = longest_loop(steps, before, out, latencies);
+  out.loops = loops_of(steps, before, out, latencies);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "modules/datapath/lane_steps.h"
+#include "tlm/datapath.h"
 
 namespace sgs {
 
@@ -25,8 +26,7 @@ struct FoldedParts {
 struct FoldedSchedule {
   std::vector<std::uint32_t> begins;  // [step], cycle; a value from outside: when it comes
   std::uint32_t cycles = 0;           // until all is done
-  // Longest from the arrival of values that come together to the end of what depends on them.
-  std::uint32_t loop_cycles = 0;
+  std::vector<DatapathLoop> loops;    // [list] of values that come together
 };
 
 // Greedy: the step with the longest way to the end first, at the first cycle in which a part is

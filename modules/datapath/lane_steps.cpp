@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace sgs {
 namespace {
@@ -28,9 +29,13 @@ class Expansion {
         sum_of_[*product_of_[i] - first_] = static_cast<std::uint32_t>(first_ + i);
     }
     for (std::size_t i = 0; i < part.together.size(); ++i) {
+      std::vector<std::uint32_t> asked;
       for (const std::uint32_t node : part.together[i]) {
-        comes_with_[node] = static_cast<std::uint32_t>(i + 1);
+        const bool asks = node >= first_ && flow_.nodes()[node].operation == Operation::kCompare;
+        if (asks) asked.push_back(node);
+        if (!asks) comes_with_[node] = static_cast<std::uint32_t>(i + 1);
       }
+      asked_.push_back(std::move(asked));
     }
   }
 
@@ -81,8 +86,8 @@ class Expansion {
       step.sources.push_back(source);
       if (!source.value.is_constant) ready = std::max(ready, ready_[source.value.of]);
     }
+    ready_.push_back(ready + latency_of(step, latencies_));
     steps_.push_back(std::move(step));
-    ready_.push_back(ready + cycles_of(by, latencies_));
     return {false, static_cast<std::uint32_t>(steps_.size() - 1)};
   }
   Operand product(Operand a, Operand b) { return push(StepBy::kProduct, {{0, a}, {1, b}}); }
@@ -110,10 +115,14 @@ class Expansion {
   }
 
   Operand from_outside(std::uint32_t node) {
-    const Operand value = push(StepBy::kOutside, {});
-    if (const auto at = comes_with_.find(node); at != comes_with_.end()) {
-      steps_.back().comes_with = at->second;
+    const auto at = comes_with_.find(node);
+    if (at == comes_with_.end()) return push(StepBy::kOutside, {});
+    std::vector<LaneStep::Source> answers;
+    for (const std::uint32_t comparison : asked_[at->second - 1]) {
+      answers.push_back({0, value_of(comparison)});
     }
+    const Operand value = push(StepBy::kOutside, answers);
+    steps_.back().comes_with = at->second;
     return value;
   }
 
@@ -280,6 +289,7 @@ class Expansion {
   const std::size_t first_, last_;
   const OperationLatencies latencies_;
   std::map<std::uint32_t, std::uint32_t> comes_with_;
+  std::vector<std::vector<std::uint32_t>> asked_;               // [list - 1] comparisons
   const std::vector<std::optional<std::uint32_t>> product_of_;  // [sum - first]
   std::vector<std::optional<std::uint32_t>> sum_of_;            // [product - first]
   std::vector<std::optional<Operand>> at_;                      // [node]: its value
@@ -290,7 +300,9 @@ class Expansion {
 };
 
 // A sum's path goes through its product, which is then no step of its own.
-void go_on(LongestPath& path, StepBy by) {
+void go_on(LongestPath& path, const LaneStep& step) {
+  const StepBy by = step.by;
+  path.reads += by == StepBy::kOutside && !step.sources.empty() ? 1 : 0;
   path.lane += by == StepBy::kLane || by == StepBy::kSum ? 1 : 0;
   path.comparator += by == StepBy::kComparator ? 1 : 0;
   path.look_ups += by == StepBy::kTable ? 1 : 0;
@@ -312,7 +324,7 @@ LongestPath longest_from(const std::vector<LaneStep>& steps, const OperationLate
       const auto& before = paths[source.value.of];
       if (before && (!path || path->cycles(latencies) < before->cycles(latencies))) path = before;
     }
-    if (path) go_on(*path, step.by);
+    if (path) go_on(*path, step);
     if (path && longest.cycles(latencies) < path->cycles(latencies)) longest = *path;
     paths.push_back(path);
   }

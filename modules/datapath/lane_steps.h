@@ -131,24 +131,34 @@ struct LaneStep {
   bool answers = false;                   // a comparison's answer, which is no value
   bool kept = false;                      // its value is wanted at the end
   // For a value from outside: 0 if it is there at the beginning, else the number of its list.
-  // Values of a list come together, when the first of them is taken.
+  // Values of a list come together, when the first of them is taken. Its sources are the answers
+  // that say whether the list is read at all.
   std::uint32_t comes_with = 0;
 };
+
+constexpr std::uint32_t kAskedReadCycles = 1;  // of a value that comes if answers let it
+
+// Cycles from the sources to the value; a value from outside is read once its answers are there.
+inline std::uint32_t latency_of(const LaneStep& step, const OperationLatencies& latencies) {
+  if (step.by == StepBy::kOutside) return step.sources.empty() ? 0 : kAskedReadCycles;
+  return cycles_of(step.by, latencies);
+}
 
 // Different constants that the steps take: numbers of the frame, of the group, and of the code.
 std::uint32_t constants_of(const std::vector<LaneStep>& steps);
 
-// Steps that wait for each other, the longest in cycles. lane: sums that leave lanes.
+// Steps that wait for each other, the longest in cycles. lane: sums that leave lanes. reads: of
+// values that come if answers let them.
 struct LongestPath {
-  std::uint32_t lane = 0, comparator = 0, look_ups = 0, products = 0;
+  std::uint32_t lane = 0, comparator = 0, look_ups = 0, products = 0, reads = 0;
 
   constexpr std::uint32_t cycles(const OperationLatencies& each) const {
     return lane * each.lane + products * each.product() + comparator * each.comparator +
-           look_ups * each.look_up;
+           look_ups * each.look_up + reads * kAskedReadCycles;
   }
   friend constexpr bool operator==(const LongestPath& a, const LongestPath& b) {
     return a.lane == b.lane && a.comparator == b.comparator && a.look_ups == b.look_ups &&
-           a.products == b.products;
+           a.products == b.products && a.reads == b.reads;
   }
 };
 
@@ -163,7 +173,7 @@ struct FlowPart {
   std::shared_ptr<const DataFlow> flow;
   std::size_t first = 0, last = 0;
   // Inputs that are read when they are needed, those of one list at once; all else from outside is
-  // there at the beginning.
+  // there at the beginning. A comparison in a list says whether it is read.
   std::vector<std::vector<std::uint32_t>> together;
 
   OperationCounts counts() const { return flow->counts(first, last); }

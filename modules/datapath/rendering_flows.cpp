@@ -1,6 +1,7 @@
 // Rendering runs with the counting scalar.
 #include "modules/datapath/rendering_flows.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <tuple>
@@ -52,14 +53,23 @@ FlowPart corner_flow() {
   return whole(flow);
 }
 
-// The numbers of each pixel's state, which come together when the first of them is taken.
+// The numbers of each pixel's state, which come together when the first of them is taken, if the
+// comparisons ahead of it let them.
 class PixelStates {
  public:
   explicit PixelStates(DataFlow& flow) : flow_(flow) {}
-  // The next number of the pixel, or the first of the next pixel.
+  // Begins the next pixel, whose alpha is computed from here on.
+  void begin_pixel() { alpha_from_ = flow_.size(); }
+  // Alpha is there: its comparisons say whether the pixel is read.
+  void ask() {
+    pixels_.emplace_back();
+    for (std::size_t node = alpha_from_; node < flow_.size(); ++node) {
+      if (flow_.nodes()[node].operation != Operation::kCompare) continue;
+      pixels_.back().push_back(static_cast<std::uint32_t>(node));
+    }
+  }
+  // The pixel's next number.
   Counting operator()(float value) {
-    constexpr std::size_t kOfPixel = 4;  // transmittance, red, green, blue
-    if (pixels_.empty() || pixels_.back().size() == kOfPixel) pixels_.emplace_back();
     const Counting of_pixel = input(flow_, value);
     pixels_.back().push_back(of_pixel.node);
     return of_pixel;
@@ -68,6 +78,7 @@ class PixelStates {
 
  private:
   DataFlow& flow_;
+  std::size_t alpha_from_ = 0;
   std::vector<std::vector<std::uint32_t>> pixels_;
 };
 
@@ -75,10 +86,12 @@ class PixelStates {
 template <class T, class Conic>
 void blend_pixels(const BlendInput<T, Conic>& in, PixelStates& state) {
   for (int lane = 0; lane < kSubtilePixels; ++lane) {
+    state.begin_pixel();
     const T dx = in.left - T(static_cast<float>(lane % kSubtilePx) * in.pixel_x);
     const T dy = in.top - T(static_cast<float>(lane / kSubtilePx) * in.pixel_y);
     const T exponent = log2_falloff(in.conic, dx, dy);
     const T alpha = alpha_of(exponent, exp2_of(exponent), in.opacity);
+    state.ask();
     const LightShare<T> light = take_light(alpha, T(state(0.5F)));
     static_cast<void>(light.after < constant<T>(kTransmittanceMin));
     for (const T& colour : {in.red, in.green, in.blue}) {
@@ -156,14 +169,25 @@ FlowPart blend_of_halves_flow() {
   return {flow, 0, flow->size(), state.pixels()};
 }
 
-void ask_where_alpha_passes(Datapath& blend, std::uint32_t value_bits) {
-  constexpr std::uint32_t kColours = 3;
-  const std::uint32_t waiting = (kSubtilePixels + kColours) * value_bits + kSubtilePixels;
-  blend.between.registers += waiting;
-  blend.between.written += waiting;
+void ask_where_alpha_passes(Datapath& blend) {
+  blend.between.registers += kSubtilePixels;
+  blend.between.written += kSubtilePixels;
   blend.between.multiplexers += kSubtilePixels;
   blend.between.selected += kSubtilePixels;
-  ++blend.depth_cycles;
+}
+
+PixelWrites pixel_writes(const Datapath& blend, SramPorts ports) {
+  PixelWrites out;
+  for (const DatapathLoop& pixel : blend.loops) {
+    const bool meets = (pixel.cycles() + kAskedReadCycles) % blend.interval_cycles() == 0;
+    const std::uint32_t wait = ports == SramPorts::kOne && meets ? 1 : 0;
+    const std::uint32_t written = pixel.end + wait;
+    out.loop_cycles = std::max(out.loop_cycles, pixel.cycles() + wait);
+    if (written <= blend.depth_cycles) continue;
+    out.wait_cycles = std::max(out.wait_cycles, written - blend.depth_cycles);
+    ++out.held;
+  }
+  return out;
 }
 
 FlowPart conic_terms_flow() {

@@ -7,6 +7,7 @@
 #include "algorithm/splat/blend.h"
 #include "modules/datapath/lane_steps.h"
 #include "tlm/datapath.h"
+#include "tlm/sram_use.h"
 
 namespace sgs {
 
@@ -36,10 +37,19 @@ FlowPart conic_terms_flow();
 // Such a splat for blending in single: its conic's terms come back, and log2(e) into them.
 FlowPart terms_of_square_flow();
 
-// Memories of pixels are asked only for those that are not finished and whose alpha passes. For
-// that the alpha of all pixels and the splat's colour wait a cycle. What a blend has finished goes
-// past the memory of finished pixels to a blend that asks meanwhile. value_bits: of a number.
-void ask_where_alpha_passes(Datapath& blend, std::uint32_t value_bits);
+// Memories of pixels are asked only for those that are not finished and whose alpha passes: a bit
+// each, which the schedule waits for. What a blend has finished goes past the memory of finished
+// pixels to a blend that asks meanwhile.
+void ask_where_alpha_passes(Datapath& blend);
+
+// How a blend writes its pixels. With one port a pixel's write waits a cycle where it would meet
+// the read of the same place for another sub-tile.
+struct PixelWrites {
+  std::uint32_t loop_cycles = 0;  // the longest, from a pixel's arrival to its result and its wait
+  std::uint32_t wait_cycles = 0;  // of the last write, behind the end of the schedule
+  std::uint32_t held = 0;         // pixels that wait behind that, in registers of their own
+};
+PixelWrites pixel_writes(const Datapath& blend, SramPorts ports);
 
 // Operations on a finished pixel on its way to the frame: the background through the light that is
 // left, then its bytes.

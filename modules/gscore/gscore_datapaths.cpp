@@ -175,7 +175,7 @@ Datapath blend_pipeline(const GscoreConfig& config) {
   path.lanes = config.rendering.core_lanes > 0 ? config.rendering.core_lanes : path.used_macs;
   schedule(path, flow.steps(config.blending()), config.blending(),
            in_half ? kHalfBits : kSingleBits);
-  ask_where_alpha_passes(path, in_half ? kHalfBits : kSingleBits);
+  ask_where_alpha_passes(path);
   if (drains_on_lanes(config)) {
     // Before the operands of a lane that also converts pixels.
     const std::uint32_t lanes = lanes_that_drain(config);

@@ -31,6 +31,7 @@ void take(const char* key, std::uint32_t& depth_cycles, std::uint32_t scheduled,
       "comparators, "
       "{} look-ups",
       of, path.cycles(latencies), path.lane, path.products, path.comparator, path.look_ups);
+  if (path.reads > 0) why += fmt::format(", {} reads", path.reads);
   if (beside > 0) why += fmt::format("; {} beside", beside);
   chosen.push_back({ChoiceKind::kDerived, key, static_cast<double>(depth_cycles), std::move(why)});
 }
@@ -69,14 +70,15 @@ void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& 
                                   part.cluster_interval_cycles())});
   }
   const Datapath blend = blend_pipeline(part, blending);
-  const std::uint32_t state_access =
-      kReadCycles + kWriteCycles + part.write_wait_cycles(loop_cycles_with_accesses(blend));
+  const PixelWrites writes = pixel_writes(blend, part.ports_of_pixels());
+  constexpr std::uint32_t kAccesses = kReadCycles + kWriteCycles;
   resolve_depth("rendering.depth_cycles", rendering.depth_cycles, blend,
                 flows.subtile_blend.longest_path(blending), blending,
-                terms + conic_pipeline(part, single).depth_cycles + state_access, chosen);
-  take("rendering.state_loop_cycles", rendering.state_loop_cycles, blend.loop_cycles,
+                terms + conic_pipeline(part, single).depth_cycles + writes.wait_cycles + kAccesses,
+                chosen);
+  take("rendering.state_loop_cycles", rendering.state_loop_cycles, writes.loop_cycles,
        "subtile_blend, from a pixel's state on",
-       longest_loop(flows.subtile_blend.steps(blending), blending), blending, state_access, chosen);
+       longest_loop(flows.subtile_blend.steps(blending), blending), blending, kAccesses, chosen);
   if (rendering.state_loop_cycles > rendering.depth_cycles) {
     throw InputError(
         fmt::format("rendering.state_loop_cycles: got {}, expected at most {}, "

@@ -16,11 +16,6 @@ namespace sgs {
 // Cycles beside a schedule: its first word is read, its result is written back.
 constexpr std::uint32_t kReadCycles = 1, kWriteCycles = 1;
 
-// The loop through a pixel's state, from its reading to its writing where that need not wait.
-inline std::uint32_t loop_cycles_with_accesses(const Datapath& blend) {
-  return kReadCycles + blend.loop_cycles + kWriteCycles;
-}
-
 // Fills in a depth that is 0: the pipeline's depth and `beside` more, listed in `chosen` with the
 // longest path that bounds it. A depth that is given stays. beside: cycles that are not in the
 // schedule, as reading and writing. Throws InputError for one that is less than that.

@@ -69,9 +69,13 @@ void serialize(Archive& a, BetweenLanes& r) {
   a(r.registers, r.multiplexers, r.written, r.selected);
 }
 template <class Archive>
+void serialize(Archive& a, DatapathLoop& r) {
+  a(r.arrival, r.end);
+}
+template <class Archive>
 void serialize(Archive& a, Datapath& r) {
   a(r.name, r.component, r.lane, r.lanes_of, r.lanes, r.copies, r.used_macs, r.counted_macs,
-    r.published_macs, r.counts, r.beside, r.between, r.set_bits, r.depth_cycles, r.loop_cycles);
+    r.published_macs, r.counts, r.beside, r.between, r.set_bits, r.depth_cycles, r.loops);
 }
 template <class Archive>
 void serialize(Archive& a, DatapathResult& r) {

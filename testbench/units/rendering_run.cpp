@@ -20,14 +20,18 @@ std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / 
 
 bool has_one_port(const RenderingPlan& plan) { return plan.config.pixel_ports == 1; }
 
-// A pixel is read in the first cycle of its loop and written in the last, unless its cluster reads
-// its only port then.
-bool writes_wait(const RenderingPlan& plan, const BuiltFor& built_for) {
-  constexpr std::uint32_t kAccesses = 2;
+// Pixels of a sub-tile whose results come in the cycle in which their only port is read for
+// another, and in the last cycle of the schedule.
+std::uint64_t late_pixels(const RenderingPlan& plan, const BuiltFor& built_for) {
+  if (!has_one_port(plan)) return 0;
   const Datapath blend = blend_pipeline(
       plan.config, in_16_bits(plan.config.precision) ? built_for.half : built_for.single);
-  const std::uint32_t written = kAccesses + blend.loop_cycles - 1;
-  return has_one_port(plan) && written % plan.config.cluster_interval_cycles() == 0;
+  const std::uint32_t turn = plan.config.cluster_interval_cycles();
+  return static_cast<std::uint64_t>(
+      std::count_if(blend.loops.begin(), blend.loops.end(), [&](const DatapathLoop& pixel) {
+        const std::uint32_t read = pixel.arrival - 1;
+        return pixel.end % turn == read % turn && pixel.end == blend.depth_cycles;
+      }));
 }
 
 // Subtractions that divide up to `most` by the clusters, where that is no shift.
@@ -283,7 +287,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   // and what waits for the only port, if it does; a pixel that is drained comes from its place's
   // share of all memories of pixels.
   const std::uint64_t late_bits =
-      writes_wait(plan, context.built_for) ? 8 * plan.config.pixel_state_bytes() : 0;
+      8 * plan.config.pixel_state_bytes() / 16 * late_pixels(plan, context.built_for);
   bench.check_operations("rendering", "register_bit",
                          8 * kSplatEntryBytes * taken +
                              8 * pixel_bytes(plan.job.frame_format) * pixels +

@@ -70,6 +70,7 @@ RenderCore::RenderCore(const sc_core::sc_module_name& name, const UnitContext& c
       corner_path_(corner_pipeline(config_)),
       blend_path_(blend_pipeline(config_)),
       drain_path_(drain_pipeline(config_)),
+      pixel_writes_(pixel_writes(blend_path_, ports_of_pixels(config_))),
       record_bytes_(record_bytes(config_.tiles.features)),
       fetch_("fetch", context.clock),
       blend_("blend", context.clock),
@@ -91,8 +92,8 @@ RenderCore::RenderCore(const sc_core::sc_module_name& name, const UnitContext& c
 // The conic is wanted behind the corner's subtractions.
 std::uint64_t RenderCore::depth_cycles() const {
   const std::uint32_t conic = conic_path_ ? conic_path_->depth_cycles : 0;
-  return std::max(conic, corner_path_.depth_cycles) + blend_path_.depth_cycles + kReadCycles +
-         kWriteCycles;
+  return std::max(conic, corner_path_.depth_cycles) + blend_path_.depth_cycles +
+         pixel_writes_.wait_cycles + kReadCycles + kWriteCycles;
 }
 
 void RenderCore::run_fetch() {
@@ -188,7 +189,7 @@ void RenderCore::blend(const SortedEntry& entry, const AnySplat& splat) {
   ++counters_.splats;
   const TileRules rules = config_.tiles.rules();
   const std::uint64_t interval = blend_path_.interval_cycles();
-  const std::uint64_t loop = blend_path_.loop_cycles + kReadCycles + kWriteCycles;
+  const std::uint64_t loop = pixel_writes_.loop_cycles + kReadCycles + kWriteCycles;
   const std::uint64_t depth = depth_cycles();
   std::uint64_t begin = now;
   const auto left_out = [&](std::uint64_t known) {
@@ -313,11 +314,18 @@ void RenderCore::publish(DataSheet& sheet) {
   // finish; draining reads and clears all.
   sheet.accesses(kPixels, n.contributors + finished_pixels_ + n.pixels, n.contributors + n.pixels);
   sheet.accesses(kFinishedPixels, n.blocks, n.blocks + kBlocks * n.tiles);
+  if (pixel_writes_.held > 0) {
+    // A pixel's new state waits for the port.
+    const double bits = 8.0 * state_bytes(config_) * pixel_writes_.held;
+    sheet.part("rendering", "register_bit", bits, 1);
+    sheet.operations("rendering", "register_bit",
+                     bits / kSubtilePixels * static_cast<double>(n.contributors));
+  }
   sheet.accesses(kMask, n.splats, n.splats);
   // For each block: a counter of cycles until a splat leaves the loop through its pixels, set when
   // the splat begins; and whether all are finished. For the splat: which of its parts and blocks is
   // next.
-  const std::uint32_t loop = blend_path_.loop_cycles + kReadCycles + kWriteCycles;
+  const std::uint32_t loop = pixel_writes_.loop_cycles + kReadCycles + kWriteCycles;
   const std::uint32_t flight_bits = counter_bits(loop), next_bits = counter_bits(kBlocks) + kBlocks;
   sheet.part("rendering", "register_bit", double{kBlocks} * (flight_bits + 1) + next_bits, 1);
   sheet.operations("rendering", "register_bit",

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "algorithm/render/group_state.h"
+#include "modules/datapath/rendering_flows.h"
 #include "modules/frame_host.h"
 #include "modules/gscore/finished_tiles.h"
 #include "modules/gscore/gscore_job.h"
@@ -70,6 +71,7 @@ class RenderCore : public sc_core::sc_module {
   FinishedTiles& finished_;
   const std::optional<Datapath> conic_path_;
   const Datapath corner_path_, blend_path_, drain_path_;
+  const PixelWrites pixel_writes_;
   const std::uint32_t record_bytes_;
   Activity fetch_, blend_, drain_;
   std::vector<std::byte> records_;

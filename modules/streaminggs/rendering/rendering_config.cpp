@@ -81,7 +81,7 @@ Datapath blend_pipeline(const RenderingConfig& config, const OperationLatencies&
   path.copies = config.clusters;
   schedule(path, counted(config.precision).flows.subtile_blend.steps(latencies), latencies,
            in_half ? kHalfBits : kSingleBits);
-  ask_where_alpha_passes(path, in_half ? kHalfBits : kSingleBits);
+  ask_where_alpha_passes(path);
   if (config.drains_on_clusters()) {
     // Before the operands of a lane that also converts pixels.
     const auto lanes =
@@ -158,12 +158,6 @@ SramPorts RenderingConfig::ports_of_pixels() const {
 bool RenderingConfig::drains_on_clusters() const {
   return drain_on_clusters && pixel_buffers == 1 && !in_16_bits(precision) &&
          lanes_that_drain(*this) <= std::uint64_t{clusters} * cluster_lanes;
-}
-
-// A blend reads in the first cycle of the loop and writes in the last.
-std::uint32_t RenderingConfig::write_wait_cycles(std::uint32_t loop_cycles) const {
-  if (ports_of_pixels() != SramPorts::kOne) return 0;
-  return (loop_cycles - 1) % cluster_interval_cycles() == 0 ? 1 : 0;
 }
 
 void check(const RenderingConfig& c) {

@@ -48,9 +48,6 @@ struct RenderingConfig {
   SramPorts ports_of_pixels() const;
   // Finished pixels are converted on the clusters' lanes.
   bool drains_on_clusters() const;
-  // Cycles that a blend's write waits, so late in the loop of a pixel's state, for a cycle in which
-  // no blend of the cluster reads.
-  std::uint32_t write_wait_cycles(std::uint32_t loop_cycles) const;
   // Cycles from a row of pixels of so many sub-tiles to the next, in draining: a port gives one
   // word a cycle, or clears the one that it gave before.
   std::uint32_t drain_row_cycles(std::uint32_t px) const;

@@ -213,11 +213,12 @@ void RenderingUnit::publish_pixels(DataSheet& sheet) {
   const std::uint64_t blended = counters_.contributors;
   const Datapath blend =
       blend_pipeline(config_, in_16_bits(config_.precision) ? built_for_.half : built_for_.single);
-  if (config_.write_wait_cycles(loop_cycles_with_accesses(blend)) > 0) {
+  if (const auto held = pixel_writes(blend, config_.ports_of_pixels()).held; held > 0) {
     // A pixel's new state waits for the port.
-    const double bits = 8.0 * config_.pixel_state_bytes();
-    sheet.part("rendering", "register_bit", bits * pixel_banks(config_, built_for_.group), 1);
-    sheet.operations("rendering", "register_bit", bits * static_cast<double>(blended));
+    const double bits = 8.0 * config_.pixel_state_bytes() * held;
+    sheet.part("rendering", "register_bit", bits * config_.clusters, 1);
+    sheet.operations("rendering", "register_bit",
+                     bits / kSubtilePixels * static_cast<double>(blended));
   }
   const auto passed = static_cast<double>(pixels);
   publish_selection(sheet, "rendering",

@@ -46,6 +46,7 @@ std::vector<Work> all_work() {
   all.emplace_back("span", flows.span);
   all.emplace_back("conic", flows.conic);
   all.emplace_back("blend", flows.subtile_blend);
+  all.emplace_back("blend in half", rendering_flows(BlendPrecision::kHalf).subtile_blend);
   return all;
 }
 
@@ -71,7 +72,10 @@ void check_schedule(const std::vector<LaneStep>& steps, const FoldedParts& parts
       if (source.value.is_constant) continue;
       const std::uint32_t from = source.value.of;
       REQUIRE(from < i);
-      CHECK(schedule.begins[from] + cycles_of(steps[from].by, kLatencies) <= begin);
+      // A value from outside is read before it comes, once the answers are there.
+      const std::uint32_t read =
+          steps[i].by == StepBy::kOutside ? latency_of(steps[i], kLatencies) : 0;
+      CHECK(schedule.begins[from] + cycles_of(steps[from].by, kLatencies) + read <= begin);
     }
     end = std::max(end, begin + cycles_of(steps[i].by, kLatencies));
     const StepBy by = part_kind(steps[i].by);
@@ -208,8 +212,41 @@ TEST_CASE("folded schedule: what is read when it is needed makes a loop") {
   const auto steps = steps_of(flow, {{first}});
   const FoldedParts parts = at_least({1, 1, 1, 1}, steps);
   const FoldedSchedule schedule = folded_schedule(steps, parts, kLatencies);
-  CHECK(schedule.loop_cycles == longest_loop(steps, kLatencies).cycles(kLatencies));
-  CHECK(schedule.loop_cycles < schedule.cycles);
+  REQUIRE(schedule.loops.size() == 1);
+  const DatapathLoop loop = schedule.loops.front();
+  CHECK(loop.cycles() == longest_loop(steps, kLatencies).cycles(kLatencies));
+  CHECK(loop.cycles() < schedule.cycles);
+  CHECK(loop.end == schedule.cycles);
+}
+
+TEST_CASE("folded schedule: every pixel waits for both comparisons of its alpha") {
+  for (const BlendPrecision precision : {BlendPrecision::kSingle, BlendPrecision::kHalf}) {
+    const auto steps = rendering_flows(precision).subtile_blend.steps(kLatencies);
+    std::map<std::uint32_t, std::uint32_t> numbers;  // [list]
+    for (const LaneStep& step : steps) {
+      if (step.comes_with == 0) continue;
+      ++numbers[step.comes_with];
+      CHECK(step.sources.size() == 2);
+      for (const LaneStep::Source& answer : step.sources) CHECK(steps[answer.value.of].answers);
+    }
+    CHECK(numbers.size() == 16);
+    for (const auto& [list, count] : numbers) CHECK(count == 4);
+  }
+}
+
+TEST_CASE("pixel writes: with one port a result waits where its place is read") {
+  Datapath blend;
+  blend.lanes = 1;
+  blend.used_macs = 3;  // a blend every third cycle
+  blend.depth_cycles = 20;
+  // Read in cycles 9, 9 and 11 and every third; results in 17, and in 18 and 20, which are reads.
+  blend.loops = {{10, 17}, {10, 18}, {12, 20}};
+  const PixelWrites two = pixel_writes(blend, SramPorts::kReadAndWrite);
+  CHECK((two.loop_cycles == 8 && two.wait_cycles == 0 && two.held == 0));
+  const PixelWrites one = pixel_writes(blend, SramPorts::kOne);
+  CHECK((one.loop_cycles == 9 && one.wait_cycles == 1 && one.held == 1));
+  blend.depth_cycles = 21;  // the schedule holds the last as long
+  CHECK(pixel_writes(blend, SramPorts::kOne).held == 0);
 }
 
 TEST_CASE("lane wiring: registers and multiplexers by hand") {

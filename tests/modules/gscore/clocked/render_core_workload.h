@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "algorithm/render/tile_renderer.h"
+#include "modules/datapath/rendering_flows.h"
 #include "modules/gscore/gscore_datapaths.h"
 #include "testbench/units/gscore_bench.h"
 #include "testbench/units/random_scene.h"
@@ -39,10 +40,11 @@ inline CoreHardware scheduled(const CoreWorkload& load, const GscoreConfig& conf
   const std::optional<Datapath> conic = conic_pipeline(config);
   constexpr std::uint32_t kReadAndWrite = 2;  // of the pixels' memory
   REQUIRE(blending.interval_cycles() == hw.blend_interval);
+  const PixelWrites writes = pixel_writes(blending, ports_of_pixels(config));
   hw.depth = std::max(conic ? conic->depth_cycles : 0, corner_pipeline(config).depth_cycles) +
-             blending.depth_cycles + kReadAndWrite;
+             blending.depth_cycles + writes.wait_cycles + kReadAndWrite;
   hw.conic_interval = conic ? static_cast<std::uint32_t>(conic->interval_cycles()) : 1;
-  hw.state_loop = blending.loop_cycles + kReadAndWrite;
+  hw.state_loop = writes.loop_cycles + kReadAndWrite;
   hw.drain_depth = drain_pipeline(config).depth_cycles;
   return hw;
 }

@@ -56,7 +56,6 @@ RenderingConfig config_of(const RenderingHardware& hw) {
   REQUIRE(config.begin_interval_cycles() == hw.begin_interval);
   REQUIRE(config.span_interval_cycles() == hw.row_interval);
   REQUIRE(config.spans_at_once() == hw.rows_at_once);
-  REQUIRE(config.write_wait_cycles(hw.state_loop) == 0);
   return config;
 }
 
@@ -271,11 +270,6 @@ TEST_CASE("clocked reference: a blend's write in a cycle of reads") {
   load.hardware.state_loop = 10;  // read in cycles 0, 3, 6; written in 9
   load.hardware.port = {preset_of<ExactConfig>("exact").port, 40, 20};
   CHECK_THROWS_AS(clocked_rendering(load, 1), std::logic_error);
-  CHECK(config_of({}).write_wait_cycles(10) == 0);
-  RenderingConfig of_one = config_of({});
-  of_one.pixel_ports = 1;
-  CHECK(of_one.write_wait_cycles(10) == 1);
-  CHECK(of_one.write_wait_cycles(11) == 0);
 }
 
 }  // namespace
