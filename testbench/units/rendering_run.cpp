@@ -241,7 +241,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   checks.that(row_cycles >= rows_sent, "more than a row goes out in a cycle");
   checks.equal(mask_writes, expected.subtiles_finished + bits * plan.groups.size(),
                "bits of the mask written");
-  bench.check_operations("rendering", "comparator", pushed * rows * words + looks * in_loop);
+  bench.check_operations("rendering", "comparator",
+                         pushed * rows * words + looks * in_loop + blends);
   const bool in_half = in_16_bits(plan.config.precision);
   const auto added = [](const OperationCounts& of) { return of.scalings + of.index_adds; };
   bench.check_operations(
@@ -277,7 +278,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
     cleared += columns * ceil_div(static_cast<std::uint64_t>(px.height()), 4);
   }
   bench.check_accesses("pixel state", reads, expected.contributors + 16 * cleared);
-  bench.check_accesses("finished pixels", blends, blends + cleared);
+  bench.check_accesses("finished pixels", 16 * blends, expected.finished_pixels + 16 * cleared);
   bench.check_accesses("sub-tiles in the loop", looks, blends);
   bench.check_accesses("cluster queues", blends, blends);
   checks.equal(bench.accesses("begun spans").second, spanned, "begun spans: writes");

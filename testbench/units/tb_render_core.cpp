@@ -185,7 +185,9 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan, bool no_ha
   bench.check_accesses("finished parts", splats, splats);
   bench.check_accesses("pixel state", expected.contributors + expected.finished_pixels + pixels,
                        expected.contributors + pixels);
-  bench.check_accesses("finished pixels", blocks, blocks + 16 * plan.tiles.size());
+  bench.check_accesses("finished pixels", 16 * blocks,
+                       expected.finished_pixels + 256 * plan.tiles.size());
+  bench.check_operations("rendering", "comparator", blocks);
   // A cycle for what is fetched or dropped, each tile's end and the frame's.
   checks.equal(bench.busy_cycles("record fetch"), entries + plan.tiles.size() + 1,
                "cycles of fetching");

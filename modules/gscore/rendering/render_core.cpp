@@ -21,6 +21,7 @@ constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint32_t kReadCycles = 1, kWriteCycles = 1;
 constexpr std::uint32_t kTilePixels = kTilePx * kTilePx;
 constexpr std::uint32_t kFinishedBytes = kSubtilePixels / 8;  // of a block, a bit a pixel
+constexpr std::uint32_t kFinishedBits = 1;                    // of a memory, as of a pixel
 
 // R, G, B and transmittance.
 std::uint32_t state_bytes(const GscoreConfig& config) {
@@ -285,11 +286,10 @@ SramUses RenderCore::sram_uses(const GscoreConfig& c) {
                         SortedEntry::sram_bytes(c.entries())),
       sram_use(kPixels, kBuffer, {{buffers, "tiles"}, {kTilePixels, "px"}, {state_bytes(c), "B"}},
                {8 * state_bytes(c), ports, banks}, {banks, ports == SramPorts::kOne ? 0 : banks}),
-      // Read a cycle ahead of the pixels that are not finished.
+      // Each place's read a cycle ahead of its pixel, which has a cycle of its own.
       sram_use(kFinishedPixels, kBuffer,
                {{buffers, "tiles"}, {kBlocks, "blocks"}, {kFinishedBytes, "B"}},
-               {8 * kFinishedBytes, SramPorts::kReadAndWrite, memories_of_place(c)},
-               {1, memories_of_place(c)}),
+               {kFinishedBits, SramPorts::kReadAndWrite, banks}, {kSubtilePixels, banks}),
       sram_use(kMask, kBuffer, {{parts_of(c), "parts"}, {1, "B"}}, {8 * parts_of(c)}, kOneOfEach),
       unanswered_writes(kPixelWrites, kBuffer, c.memory_port,
                         kTilePx * pixel_bytes(c.framebuffer))};
@@ -313,7 +313,14 @@ void RenderCore::publish(DataSheet& sheet) {
   // A blend reads the unfinished pixels whose alpha passes, and writes those that it does not
   // finish; draining reads and clears all.
   sheet.accesses(kPixels, n.contributors + finished_pixels_ + n.pixels, n.contributors + n.pixels);
-  sheet.accesses(kFinishedPixels, n.blocks, n.blocks + kBlocks * n.tiles);
+  sheet.accesses(kFinishedPixels, kSubtilePixels * n.blocks,
+                 finished_pixels_ + kTilePixels * n.tiles);
+  // A block whose pixels are asked for against the one that finishes some meanwhile; the next block
+  // among those that are left: x & -x of their bits.
+  for (const char* part : {"comparator", "adder"}) {
+    sheet.part("rendering", part, 1, 1);
+    sheet.operations("rendering", part, static_cast<double>(n.blocks));
+  }
   if (pixel_writes_.held > 0) {
     // A pixel's new state waits for the port.
     const double bits = 8.0 * state_bytes(config_) * pixel_writes_.held;

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::uint32_t kSubtileNumberBytes = 2;
 constexpr std::uint32_t kFinishedBytes = kSubtilePixels / 8;  // of a sub-tile, a bit a pixel
+constexpr std::uint32_t kFinishedBits = 1;                    // of a memory, as of a pixel
 constexpr const char *kBegunSpans = "begun spans", *kFinishedPixels = "finished pixels";
 constexpr std::uint32_t kBegunSpanBytes = 4 * kBegunSpanWords;
 
@@ -105,7 +106,6 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
   const auto width = static_cast<std::uint32_t>(built_for.group.width);
   const auto height = static_cast<std::uint32_t>(built_for.group.height);
   const std::uint32_t banks = pixel_banks(config, built_for.group);
-  const std::uint32_t finished_banks = cluster_banks(config, built_for.group);
   const std::uint32_t writes_beside = config.ports_of_pixels() == SramPorts::kOne ? 0 : banks;
   const SramPeak of_clusters{config.clusters, config.clusters};
   return {sram_use("pixel state", kSharedSram,
@@ -115,13 +115,12 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
                     {config.pixel_state_bytes(), "B"}},
                    {8 * config.pixel_state_bytes(), config.ports_of_pixels(), banks},
                    {banks, writes_beside}),
-          // Read a cycle ahead of the pixels that are not finished.
+          // Each place's read a cycle ahead of its pixel, which has a cycle of its own.
           sram_use(kFinishedPixels, kSharedSram,
                    {{config.pixel_buffers, "groups"},
                     {std::max(subtiles_of(built_for.group), 1U), "sub-tiles"},
                     {kFinishedBytes, "B"}},
-                   {8 * kFinishedBytes, SramPorts::kReadAndWrite, finished_banks},
-                   {finished_banks, finished_banks}),
+                   {kFinishedBits, SramPorts::kReadAndWrite, banks}, {banks, banks}),
           sram_use("splats under way", kSharedSram,
                    {{config.span_slots, "slots"}, {kSplatEntryBytes, "B"}}, {8 * kSplatEntryBytes},
                    kOneOfEach),
@@ -173,15 +172,18 @@ void RenderingUnit::publish_dispatcher(DataSheet& sheet) {
   const double of_row = row_adders(built_for_.group, config_.clusters);
   // The head of a queue against all sub-tiles in the loop, in every cycle that it is looked at.
   const double of_loop = config_.subtiles_in_loop();
+  // A sub-tile whose pixels are asked for against the one that finishes some meanwhile.
+  constexpr double kPastFinished = 1;
   // The splat whose rows go out.
   sheet.part("rendering", "register_bit", 8 * kSplatEntryBytes, 1);
   sheet.operations("rendering", "register_bit",
                    8 * kSplatEntryBytes * static_cast<double>(counters_.splats_taken));
   const auto looks = clusters.subtile_blends + clusters.hazard_cycles;
-  sheet.part("rendering", "comparator", of_splat + config_.clusters * of_loop, 1);
+  sheet.part("rendering", "comparator", of_splat + config_.clusters * (of_loop + kPastFinished), 1);
   sheet.operations("rendering", "comparator",
                    of_splat * static_cast<double>(counters_.splats_taken + dropped) +
-                       of_loop * static_cast<double>(looks));
+                       of_loop * static_cast<double>(looks) +
+                       kPastFinished * static_cast<double>(clusters.subtile_blends));
   sheet.part("rendering", "adder", of_row, 1);
   sheet.operations("rendering", "adder", of_row * static_cast<double>(clusters.row_cycles));
   const double of_first = row_division_adders(built_for_.group, config_.clusters);
@@ -236,7 +238,8 @@ void RenderingUnit::publish_pixels(DataSheet& sheet) {
   // Draining reads the places of a row, clearing writes all.
   sheet.accesses("pixel state", blended + finished_pixels_ + kSubtilePx * drained,
                  blended + kSubtilePixels * cleared);
-  sheet.accesses(kFinishedPixels, blends, blends + cleared);
+  sheet.accesses(kFinishedPixels, kSubtilePixels * blends,
+                 finished_pixels_ + kSubtilePixels * cleared);
 }
 
 void RenderingUnit::publish(DataSheet& sheet) {

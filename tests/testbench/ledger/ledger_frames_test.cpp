@@ -47,7 +47,8 @@ void check_shared(const Frame& frame, const StreamingStats& golden, std::uint64_
   CHECK(pixels.reads >= pixels.writes);
   CHECK(pixels.reads <= pixels.writes + 72 * 48);
   // What comes before it is known that a sub-tile is finished is looked at for nothing.
-  CHECK(accesses(frame, "finished pixels").reads == blends);
+  CHECK(accesses(frame, "finished pixels").reads == 16 * blends);
+  CHECK(accesses(frame, "finished pixels").writes == pixels.reads - pixels.writes + 72 * 48);
 }
 
 TEST_CASE("ledger: exact order is charged with what the golden renderer counts") {
