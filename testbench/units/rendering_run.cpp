@@ -2,6 +2,7 @@
 #include "testbench/units/rendering_run.h"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 #include <tuple>
 #include <vector>
@@ -244,12 +245,17 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   bench.check_operations("rendering", "comparator",
                          pushed * rows * words + looks * in_loop + blends);
   const bool in_half = in_16_bits(plan.config.precision);
+  // The quotient of a row's first cluster, and a subtraction for each cluster.
+  const int group_columns = plan.group.width / 4;
+  std::uint64_t steps_of_row =
+      division_steps(2 * (plan.group.height / 4 - 1), plan.config.clusters);
+  if (steps_of_row > 0) steps_of_row += plan.config.clusters;
   const auto added = [](const OperationCounts& of) { return of.scalings + of.index_adds; };
   bench.check_operations(
       "rendering", "adder",
-      row_cycles * plan.config.clusters * words +
-          rows_sent * division_steps(2 * (plan.group.height / 4 - 1), plan.config.clusters) +
-          (blends + subtile_rows) * division_steps(plan.group.width / 4 - 1, plan.config.clusters) +
+      row_cycles * plan.config.clusters * words + rows_sent * steps_of_row +
+          (blends + subtile_rows) *
+              division_steps(group_columns * (plan.group.height / 4) - 1, plan.config.clusters) +
           pixels * added(drained) + taken * added(conic) + spans * added(span) +
           spanned * added(spans_begin) + (in_half ? 0 : blends * added(subtile_blend)));
   const std::uint64_t compared = pixels * drained.comparisons + taken * conic.comparisons +
@@ -294,10 +300,14 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
                              8 * pixel_bytes(plan.job.frame_format) * pixels +
                              late_bits * expected.contributors);
   const std::uint64_t of_place = memories_of_a_place(plan);
-  if (of_place > 1) {
+  const std::uint64_t of_masks =
+      counter_bits(plan.config.clusters / std::gcd(2U, plan.config.clusters) - 1);
+  if (of_place > 1 || of_masks > 0) {
     bench.check_operations(
         "rendering", "select_bit",
-        8 * plan.config.pixel_state_bytes() * counter_bits(of_place - 1) * pixels);
+        8 * plan.config.pixel_state_bytes() * counter_bits(of_place - 1) * pixels +
+            rows_sent * plan.config.clusters * static_cast<std::uint64_t>(group_columns) *
+                of_masks);
   }
 }
 

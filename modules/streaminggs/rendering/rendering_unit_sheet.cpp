@@ -1,5 +1,6 @@
 // Data sheet of the rendering unit: its on-chip memories, counters and costs.
 #include <algorithm>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -46,7 +47,7 @@ std::uint64_t subtiles_of(int pixels) {
 }
 
 // Adders that divide a number up to `most` by the clusters: one subtracts for each bit of the
-// quotient. A power of two shifts. x + 2 y says whose a sub-tile is, x where it lies in its bank.
+// quotient. A power of two shifts.
 std::uint32_t division_adders(std::uint64_t most, std::uint32_t clusters) {
   if ((clusters & (clusters - 1)) == 0) return 0;
   return counter_bits(most / clusters);
@@ -57,10 +58,15 @@ std::uint32_t row_division_adders(const PixelSize& group, std::uint32_t clusters
   return division_adders(2 * (subtiles_of(group.height) - 1), clusters);
 }
 
-// Of a sub-tile, in its row.
+// Of a sub-tile, among those of the group row by row: the quotient says where it lies in its bank.
+// No two meet there, and no row is left free, where a row has two more than a multiple of the
+// clusters, as 32 of five. The remainder is then that of x + 2 y, whose it is.
 std::uint32_t subtile_division_adders(const PixelSize& group, std::uint32_t clusters) {
-  return division_adders(subtiles_of(group.width) - 1, clusters);
+  return division_adders(subtiles_of(group.width) * subtiles_of(group.height) - 1, clusters);
 }
+
+// Masks of a row that a cluster's sub-tiles may have, by 2 y.
+std::uint32_t row_masks(std::uint32_t clusters) { return clusters / std::gcd(2U, clusters); }
 
 // Sub-tiles of a row that finished pixels come from at once.
 std::uint64_t drained_at_once(const RenderingConfig& config) {
@@ -188,10 +194,17 @@ void RenderingUnit::publish_dispatcher(DataSheet& sheet) {
   sheet.operations("rendering", "adder", of_row * static_cast<double>(clusters.row_cycles));
   const double of_first = row_division_adders(built_for_.group, config_.clusters);
   const double of_subtile = subtile_division_adders(built_for_.group, config_.clusters);
-  sheet.part("rendering", "adder", of_first + config_.clusters * of_subtile, 1);
+  // Which of the masks is whose: the row's first cluster is taken from each, round the last.
+  const double of_masks = of_first > 0 ? config_.clusters : 0;
+  sheet.part("rendering", "adder", of_first + of_masks + config_.clusters * of_subtile, 1);
   sheet.operations("rendering", "adder",
-                   of_first * static_cast<double>(clusters.rows) +
+                   (of_first + of_masks) * static_cast<double>(clusters.rows) +
                        of_subtile * static_cast<double>(clusters.subtile_blends));
+  publish_selection(
+      sheet, "rendering",
+      {row_masks(config_.clusters), static_cast<double>(subtiles_of(built_for_.group.width)),
+       static_cast<double>(config_.clusters)},
+      static_cast<double>(clusters.rows) * config_.clusters);
   const std::uint64_t bits = mask_bits(built_for_.group);
   sheet.accesses("finished sub-tiles",
                  bits * (dropped + counters_.splats_taken + clusters.row_cycles),
