@@ -61,7 +61,7 @@ TEST_CASE("refusals: a pipeline shorter than its schedule, a loop longer than it
     int least;
   };
   for (const auto& [order, key, least] : {Row{"exact", "rendering.begin_depth_cycles", 77},
-                                          {"exact", "rendering.depth_cycles", 47},
+                                          {"exact", "rendering.depth_cycles", 48},
                                           {"exact", "rendering.state_loop_cycles", 8},
                                           {"exact", "rendering.span_depth_cycles", 39},
                                           {"exact", "rendering.drain_depth_cycles", 10},
