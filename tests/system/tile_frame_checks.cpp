@@ -298,13 +298,15 @@ void check_rates(const Json& view) {
             of_sorters("merged") / 8 + of_sorters("entries_sorted"));
   CHECK(busy(view, "rendering", "fetch") >= of_cores("records") + of_cores("dropped"));
   // A cycle for each tile's end, the pass's in each core, and what is dropped; at most for a splat
-  // too, of which no part is left, and before any splat until the lanes' next turn.
+  // too, of which no part is left, before any splat until the lanes' next turn, and as long as the
+  // blocks that are left out, while the conic's lanes do whole parts.
   const std::uint64_t blending = of_cores("blocks") * turn("blend") + of_cores("hazard_cycles") +
                                  of_cores("tiles") + of_cores("dropped_fetched") +
                                  good_passes(view) * count(config["cores"]);
   CHECK(busy(view, "rendering", "blend") >= blending);
-  CHECK(busy(view, "rendering", "blend") <=
-        blending + of_cores("parts_finished") + (turn("blend") - 1) * of_cores("splats"));
+  CHECK(busy(view, "rendering", "blend") <= blending + of_cores("parts_finished") +
+                                                of_cores("blocks_finished") * turn("blend") +
+                                                (turn("blend") - 1) * of_cores("splats"));
   CHECK(busy(view, "rendering", "blend") >= of_cores("splats"));
   CHECK(busy(view, "rendering", "drain") * count(config["rendering"]["drain_pixels_per_cycle"]) >=
         of_cores("pixels"));
