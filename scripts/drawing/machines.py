@@ -39,7 +39,7 @@ PAIRS = (
     ("exact_fast", "gscore_lossless_boxes"),
     ("exact", "gscore_lossless_boxes"),
     ("exact_fp16", "gscore_boxes"),
-    ("paper", "gscore"),
+    ("paper_text", "gscore"),
 )
 CIRCLES = {
     "marker": "o",

@@ -125,7 +125,7 @@ def groups(*shapes: object) -> Axis:
 
 # Beside them shapes that cut a frame of 640 x 360 evenly.
 SQUARES = (32, 48, 64, 80, 96, 112, 128)
-SHAPES = (*SQUARES, "160x120", "216x120", "160x180", "320x180")
+SHAPES = (*SQUARES, "128x120", "160x120", "216x120", "160x180", "320x180")
 
 COMMON = (
     axis("hfus", 1, 2, 3, 4, 6, 8, 9),

@@ -16,12 +16,18 @@ from typing import IO
 
 from runs import run_arguments
 from runs.keeper import Keeper
-from runs.scenes import Scene, answered, find_scenes, shared_names, view_numbers_there
+from runs.scenes import (
+    BUILT_IN,
+    Scene,
+    answered,
+    find_scenes,
+    shared_names,
+    view_numbers_there,
+)
 from runs.simulations import Run, binders, decibels, joules, mean, mm2
 
 OBJECTS = ("truck", "playbot", "builtin:object")  # whatever their parameters
 SIZES, OBJECT_SIZES = ("640x360", "980x545"), ("640x360", "800x800")
-BUILT_IN = ("builtin:object", "builtin:outdoor", "builtin:outdoor?n=1000000")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -73,7 +79,7 @@ def check_machines(arguments: argparse.Namespace) -> None:
 
 def find_cases(arguments: argparse.Namespace) -> list[Case]:
     """Raises ValueError for what is no scene, size, machine or view, or there twice."""
-    scenes = find_scenes(arguments.scenes or [*BUILT_IN, *shared_names()], arguments.cameras)
+    scenes = find_scenes(arguments.scenes or shared_names() or BUILT_IN, arguments.cameras)
     check_sizes(arguments, scenes)
     check_machines(arguments)
     for scene in scenes:
@@ -84,7 +90,7 @@ def find_cases(arguments: argparse.Namespace) -> list[Case]:
 def add_arguments(to: run_arguments.Parser, machines: Sequence[str], channels: list[int]) -> None:
     """Of cases and of the machines that draw them."""
     run_arguments.add_scenes(
-        to, f"{', '.join(BUILT_IN)} and all real ones, each at the sizes of its kind"
+        to, f"all real ones, or {', '.join(BUILT_IN)}, each at the sizes of its kind"
     )
     to.add_argument("--sizes", nargs="+", metavar="WxH", help=f"in px; default: {' '.join(SIZES)}")
     to.add_argument(

@@ -1,9 +1,8 @@
 """Machines beside each other: the same scenes, views, DRAM and ledger, each with the scene stored
 as it reads it; and the original rasteriser on a mobile GPU, which is modelled, not simulated. A
 case is a scene at a size. Machines are held against those of their own precision: exact_fp16 and
-the paper's presets blend in half as gscore, gscore_fp32_keys and gscore_boxes do, exact and
-exact_fast in single as gscore_lossless and gscore_lossless_boxes; exact against gscore as well, and
-marked. Makes
+paper_text blend in half as gscore and gscore_boxes do, exact and exact_fast in single as
+gscore_lossless and gscore_lossless_boxes; exact against gscore as well, and marked. Makes
 
   compare_machines         a line for each case, memory and machine: means over the views; frames a
                            second of frames alone, and at most if frames overlapped
@@ -19,8 +18,8 @@ marked. Makes
 
 and draws compare_machines_rates, _traffic and _ratios from them.
 
-Without SCENE: the real scenes that there are at --sizes, or at --object-sizes those that show an
-object, the built-in ones, and a built-in one of a million Gaussians.
+Without SCENE: the real scenes that there are, at --sizes, or at --object-sizes those that show an
+object; built-in ones where there are none.
 """
 
 from __future__ import annotations
@@ -129,14 +128,11 @@ CASES_ABOUT = "Means over the views of each; columns as those of the ratios over
 
 DERIVED = " derived"
 # StreamingGS (DAC 2025): means over its scenes, with its GPU (4.9 and 8.5 frames a second) and its
-# own model of GSCore. Its energy of GSCore is 62.9 over 2.3; without both parts it states only that
-# codebooks change the speed little.
+# own model of GSCore. Its energy of GSCore is 62.9 over 2.3.
 PUBLISHED = {
-    ("paper", GPU): ("45.7", "62.9"),
-    ("paper_no_cgf", GPU): ("22.2", "27.3"),
-    ("paper_no_vq_cgf", GPU): ("22.2" + DERIVED, "21.5"),
+    ("paper_text", GPU): ("45.7", "62.9"),
     ("gscore", GPU): ("21.6", "27.3" + DERIVED),
-    ("paper", "gscore"): ("2.1", "2.3"),
+    ("paper_text", "gscore"): ("2.1", "2.3"),
 }
 # Held against each other in spite of what they blend in, since one is the default and the other
 # what is published.
@@ -237,10 +233,8 @@ def ratio_rows(
 
 
 MACHINES = (
-    *("gscore", "gscore_fp32_keys", "gscore_boxes"),
-    *("gscore_lossless", "gscore_lossless_boxes"),
-    *("paper", "paper_no_vq", "paper_no_cgf", "paper_no_vq_cgf"),
-    *("exact_fp16", "exact", "exact_fast", "exact_vq"),
+    *("gscore", "gscore_boxes", "gscore_lossless", "gscore_lossless_boxes"),
+    *("paper_text", "exact_fp16", "exact", "exact_fast", "exact_vq"),
 )
 FIGURES = ("compare_machines_rates", "compare_machines_traffic", "compare_machines_ratios")
 WISHED_FPS = 90

@@ -5,8 +5,7 @@ other studies made. Areas come from a short run of each preset. Makes
   headline_scenes  speed-up and energy by scene of frames alone, which the figure headline shows
 
 Scenes are trained, none is built in. `compare_machines_cases` has pairs of one precision; neither
-machine asks for tuning. `quality_machine` has scenes that were tuned to either order, with codebooks.
-`fair_fight_summary` has what a search found for either order in one area.
+machine asks for tuning. `fair_fight_summary` has what a search found for each order in one area.
 """
 
 from __future__ import annotations
@@ -14,6 +13,7 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import json
+import math
 import pathlib
 import statistics
 import tempfile
@@ -31,8 +31,8 @@ Ratio = tuple[float, float | None]  # speed-up; energy, None: not measured
 Ratios = Mapping[str, Ratio]  # by scene
 Cells = Mapping[str, str]
 
-CASES, TUNED, SEARCHED = "compare_machines_cases", "quality_machine", "fair_fight_summary"
-READS = {"compare_machines": [CASES], "quality_table": [TUNED], "fair_fight": [SEARCHED]}
+CASES, SEARCHED = "compare_machines_cases", "fair_fight_summary"
+READS = {"compare_machines": [CASES], "fair_fight": [SEARCHED]}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -48,18 +48,18 @@ class Frames:
 
 ALONE = Frames("alone, 25.6 GB/s", 4, "25.6", "times as fast", "times less energy")
 OVERLAPPED = Frames("overlapped, 51.2 GB/s", 8, "51.2", "both overlapped")
+BASELINE = "gscore_lossless_boxes"
 # From CASES: what both pictures of a pair are.
 PICTURES: Mapping[Pair, str] = {
-    ("exact_fast", "gscore_lossless_boxes"): "both: the reference picture",
-    ("exact", "gscore_lossless_boxes"): "both: the reference picture",
+    ("exact_fast", BASELINE): "both: the reference picture",
+    ("exact", BASELINE): "both: the reference picture",
     ("exact_fp16", "gscore_boxes"): "both: in half precision",
 }
-# From TUNED: both have codebooks, each of a scene that was tuned to it.
-TUNED_PAIR = ("exact_vq", "paper")
-TUNED_TO = "quantisation-aware"
-# From SEARCHED: what was found for each order.
-ORDERS = ("exact", "paper")
-SEARCHED_PAIR = "exact order / paper order, both searched"
+# From SEARCHED: what was found for each, in one area.
+SEARCHED_PAIRS: Mapping[Pair, str] = {
+    ("exact", "gscore"): "exact order / GSCore, both searched",
+    ("exact", "paper"): "exact order / paper order, both searched",
+}
 TECHNOLOGY = REPOSITORY / "testbench" / "cost" / "technology_32nm.json"
 AREA_RUN = ("builtin:object?n=2000", "96x96")  # areas of presets hardly depend on the scene
 
@@ -110,36 +110,16 @@ def geometric(ratios: Sequence[Ratio]) -> Ratio:
     return statistics.geometric_mean(speeds), energy
 
 
-def tuned_rows(rows: Sequence[Cells], preset: str) -> dict[str, Cells]:
-    """By scene. Raises ValueError where there are none."""
-    found = {r["scene"]: r for r in rows if (r["preset"], r["tuned"]) == (preset, TUNED_TO)}
-    if not found:
-        raise ValueError(f"{TUNED}.csv: no scene of {preset} that is {TUNED_TO}")
-    return found
-
-
-def tuned(rows: Sequence[Cells]) -> tuple[Ratios, str]:
-    """And both pictures."""
-    own, other = (tuned_rows(rows, preset) for preset in TUNED_PAIR)
-    ratios = {
-        scene: tuple(float(other[scene][n]) / float(own[scene][n]) for n in ("M cycles", "mJ"))
-        for scene in own
-    }
-    ends = [[float(row["PSNR dB"]) for row in of.values()] for of in (own, other)]
-    text = [f"{min(of):.1f} .. {max(of):.1f} dB" for of in ends]
-    return ratios, f"{text[0]}, baseline {text[1]}"
-
-
-def searched_row(rows: Sequence[Cells]) -> tuple:
-    """Of what was found for either order, over the sizes. Its area is without PHY and controller.
-    Raises ValueError where a search is missing."""
+def searched_row(rows: Sequence[Cells], pair: Pair) -> tuple:
+    """Of what was found for either, over the sizes. Its area is without PHY and controller. Raises
+    ValueError where a search is missing."""
     own, other = (
         {row["size px"]: row for row in rows if row["machine"].startswith(f"{order}, ")}
-        for order in ORDERS
+        for order in pair
     )
     if not own or own.keys() != other.keys():
         raise ValueError(
-            f"{SEARCHED}.csv: got no machine of each size that was found for each order"
+            f"{SEARCHED}.csv: got no machine of each size that was found for {' and '.join(pair)}"
         )
 
     def over(column: str) -> float:
@@ -148,9 +128,12 @@ def searched_row(rows: Sequence[Cells]) -> tuple:
         )
 
     ends = [float(row[f"PSNR dB, {end}"]) for row in other.values() for end in ("least", "most")]
-    pictures = f"the reference picture, baseline {min(ends):.1f} .. {max(ends):.1f} dB"
+    if min(ends) == math.inf:
+        pictures = "both: the reference picture"
+    else:
+        pictures = f"the reference picture, baseline {min(ends):.1f} .. {max(ends):.1f} dB"
     ratios = (over("M cycles"), over("mJ"), 1 / over("mm2"), None)
-    return (SEARCHED_PAIR, ALONE.text, *ratios, pictures)
+    return (SEARCHED_PAIRS[pair], ALONE.text, *ratios, pictures)
 
 
 def area_mm2(
@@ -183,15 +166,13 @@ def area_ratios(program: pathlib.Path, pair: Pair, channels: int) -> tuple[list[
     return ratios, provenances
 
 
-def about(compared_scenes: Sequence[str], tuned_scenes: Sequence[str]) -> str:
+def about(scenes: Sequence[str]) -> str:
     return (
         "Geometric means over trained scenes; below 1 the baseline is ahead. Alone: a frame begins "
         "when the one before it has ended. Overlapped: when the busiest part is free, a bound that no "
-        f"machine here reaches. Beside gscore: {', '.join(compared_scenes)}, two sizes each. "
-        f"{named(TUNED_PAIR)}: {', '.join(tuned_scenes)}, small pictures, each tuned to either "
-        "machine. Both searched: each order with the fastest machine that a search found in the area "
-        "of paper, untuned scenes. Splats at one depth blend in the order in which a machine stores "
-        "them."
+        f"machine here reaches. Beside presets: {', '.join(scenes)}, two sizes each. Both searched: "
+        f"each with the fastest machine that as long a search found in the area of {BASELINE}, on "
+        "untuned scenes. Splats at one depth blend in the order in which a machine stores them."
     )
 
 
@@ -202,27 +183,24 @@ def add_arguments(to: run_arguments.Parser) -> None:
         type=pathlib.Path,
         default=REPOSITORY / "traces" / "results",
         metavar="FOLDER",
-        help=f"with {CASES}, {TUNED} and {SEARCHED}",
+        help=f"with {CASES} and {SEARCHED}",
     )
     run_arguments.add_program(to)
 
 
 def make(arguments: argparse.Namespace) -> None:
-    read = {name: tables.read_rows(arguments.tables, name) for name in (CASES, TUNED, SEARCHED)}
-    of_tuned, tuned_pictures = tuned(read[TUNED])
+    read = {name: tables.read_rows(arguments.tables, name) for name in (CASES, SEARCHED)}
     ratios = {
         **{(pair, ALONE): compared(read[CASES], pair, ALONE) for pair in PICTURES},
         **{(pair, OVERLAPPED): compared(read[CASES], pair, OVERLAPPED) for pair in PICTURES},
-        (TUNED_PAIR, ALONE): of_tuned,
     }
-    pictures = {**PICTURES, TUNED_PAIR: tuned_pictures}
     rows, provenances = [], []
     for (pair, frames), of_scenes in ratios.items():
         areas, told = area_ratios(arguments.streaminggs, pair, frames.channels)
         means = geometric(list(of_scenes.values()))
-        rows.append((named(pair), frames.text, *means, *areas, pictures[pair]))
+        rows.append((named(pair), frames.text, *means, *areas, PICTURES[pair]))
         provenances += told
-    rows.append(searched_row(read[SEARCHED]))
+    rows += [searched_row(read[SEARCHED], pair) for pair in SEARCHED_PAIRS]
     scenes = [
         (named(pair), scene, *of)
         for (pair, frames), of_scenes in ratios.items()
@@ -230,7 +208,7 @@ def make(arguments: argparse.Namespace) -> None:
         for scene, of in of_scenes.items()
     ]
     by = made_from(arguments, provenances)
-    text = about(list(ratios[next(iter(PICTURES)), ALONE]), list(of_tuned))
+    text = about(list(ratios[next(iter(PICTURES)), ALONE]))
     tables.write(arguments.out, "headline", by, COLUMNS, rows, text)
     tables.write(arguments.out, "headline_scenes", by, SCENE_COLUMNS, scenes, text)
 
@@ -238,7 +216,7 @@ def make(arguments: argparse.Namespace) -> None:
 def made_from(arguments: argparse.Namespace, provenances: Sequence[dict]) -> Made:
     """Of the tables that it is from as well. inputs: their digests."""
     own = tables.made(arguments.streaminggs, provenances)
-    names = (CASES, TUNED, SEARCHED)
+    names = (CASES, SEARCHED)
     sources = {name: tables.facts_of(arguments.tables, name)["made"] for name in names}
 
     def all_of(key: str, of_own: Sequence[str]) -> tuple[str, ...]:

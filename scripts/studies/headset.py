@@ -22,7 +22,7 @@ from runs.simulations import FIT_MEMORIES, MB, MJ, check_memory_known
 from tables import SCENE, SIZE, Column, Study
 
 SCENES = ("truck", "playbot", "yard", "park", "platform", "garden")
-HEADSET_SIZES = ("640x360", "1280x720", "1440x1600", "2064x2208")
+HEADSET_SIZES = ("640x360", "2064x2208")
 RATES = (60, 72, 90, 120)
 TILE_PX = 16
 
@@ -321,7 +321,7 @@ def add_headset_arguments(to: run_arguments.Parser) -> None:
     to.add_argument(
         "--rates", nargs="*", type=int, default=list(RATES), metavar="N", help="of a display, 1/s"
     )
-    to.add_argument("--frames", type=int, default=6, metavar="N", help="along the scene's cameras")
+    to.add_argument("--frames", type=int, default=4, metavar="N", help="along the scene's cameras")
     to.add_argument("--ipd", type=float, default=0.064, help="of the eyes, in the world's units")
 
 

@@ -144,22 +144,23 @@ class WithTheCommand(InFolder):
     def test_both_orders_in_one_area(self):
         """What explore.py found is drawn beside presets."""
         found = []
-        for order in ("exact", "paper"):
+        for order in ("exact", "gscore", "paper"):
             status, line, _ = self.ended(
                 explore,
                 *(str(self.scene), "--streaminggs", COMMAND, "--recipe", f"{order}_in_area"),
-                *("--size", "64x36", "--trials", "3", "--require", "mm2 <= 1.2 x paper"),
+                *("--size", "64x36", "--trials", "3", "--require", "mm2 <= 1.2 x gscore_lossless_boxes"),
                 *("--out", str(self.folder / order)),
             )
             self.assertEqual(status, 0, line)
             found.append(f"{order}={self.folder / order}")
         made = self.made(FAIR_FIGHT, "--sizes", "64x36", "--found", *found)
-        names = [f"preset {name}" for name in PRESETS] + ["exact, found", "paper, found"]
+        names = [f"preset {name}" for name in PRESETS]
+        names += ["exact, found", "gscore, found", "paper, found"]
         for name in names:
             self.assertEqual(made.count(f"| 64x36 | truck | {name} |"), 2, made)
             self.assertEqual(made.count(f"| 64x36 | {name} |"), 1, made)
         rows = tables.read_rows(self.folder, "fair_fight_front")
-        self.assertEqual({row["order"] for row in rows}, {"exact", "paper"})
+        self.assertEqual({row["order"] for row in rows}, {"exact", "gscore", "paper"})
         self.assertIn("yes", [row["on the front"] for row in rows])
 
     @nightly

@@ -133,9 +133,9 @@ class Machines(unittest.TestCase):
 
     def test_what_is_published_stands_beside_all_sizes_and_says_what_is_derived(self):
         gpu = dataclasses.replace(measured(1, 2), joules=(5, 10), precision="fp32")
-        of_case = {"gscore": measured(1, 1), "paper": measured(1, 1), GPU: gpu}
+        of_case = {"gscore": measured(1, 1), "paper_text": measured(1, 1), GPU: gpu}
         for own, sizes, speed, joules in (
-            ("paper", "all", "45.7", "62.9"),
+            ("paper_text", "all", "45.7", "62.9"),
             ("gscore", "all", "21.6", "27.3 derived"),
             ("gscore", "64x36", "", ""),
         ):
@@ -277,18 +277,6 @@ class Headline(InFolder):
         self.write_cases(
             *(("truck", 2, 3), ("truck", 8, 3), ("yard", 1, 12)), ("builtin:object", 64, 64)
         )
-        states = (("exact_vq", 2, 3, "40"), ("paper", 8, 9, "30"))
-        self.save(
-            headline.TUNED,
-            ("scene", "tuned", "preset", "M cycles", "mJ", "PSNR dB"),
-            [
-                (scene, tuned, preset, cycles * by, joules, quality)
-                for preset, cycles, joules, quality in states
-                for scene, by in (("lego", 1), ("desk", 4))
-                for tuned in (headline.TUNED_TO, "as given")
-            ],
-        )
-
         head = ("size px", "machine", "mm2", "M cycles", "mJ", "PSNR dB, least", "PSNR dB, most")
         self.save(
             headline.SEARCHED,
@@ -299,6 +287,8 @@ class Headline(InFolder):
                 ("2x2", "exact, found", 6, 2, 3, "inf", "inf"),
                 ("1x1", "paper, found", 3, 1, 3, 20, 40),
                 ("2x2", "paper, found", 3, 4, 12, 15, 30),
+                ("1x1", "gscore, found", 6, 8, 6, "inf", "inf"),
+                ("2x2", "gscore, found", 6, 8, 6, "inf", "inf"),
             ],
         )
 
@@ -316,7 +306,7 @@ class Headline(InFolder):
     def made(self) -> list[dict[str, str]]:
         def area(_, preset: str, channels: int, technology: pathlib.Path) -> tuple[float, dict]:
             counted = json.loads(technology.read_text())["memory_interface"]["counted"]
-            own = {"exact_fast": 3, "exact_vq": 3}.get(preset, 2)
+            own = {"exact_fast": 3}.get(preset, 2)
             return own + (channels if counted else 0), {}
 
         arguments = argparse.Namespace(
@@ -337,14 +327,7 @@ class Headline(InFolder):
         self.assertEqual(first["area ratio"], "1.5")
         self.assertAlmostEqual(float(first["area ratio with PHY and controller"]), 7 / 6)
         scenes = tables.read_rows(self.folder, "headline_scenes")
-        self.assertEqual([row["scene"] for row in scenes], ["truck", "yard", "lego", "desk"])
-
-    def test_of_tuned_scenes_only_what_was_tuned_to_codebooks(self):
-        *_, last, _ = self.made()
-        self.assertEqual(last["machine / baseline"], "exact_vq / paper")
-        self.assertAlmostEqual(float(last["speed-up"]), 4)
-        self.assertAlmostEqual(float(last["energy, baseline over machine"]), 3)
-        self.assertEqual(last["picture"], "40.0 .. 40.0 dB, baseline 30.0 .. 30.0 dB")
+        self.assertEqual([row["scene"] for row in scenes], ["truck", "yard"])
 
     def test_overlapped_frames_with_twice_the_memory(self):
         """Of which no energy is measured; 8 channels in the area."""
@@ -355,10 +338,14 @@ class Headline(InFolder):
         self.assertEqual(row["energy, baseline over machine"], "")
         self.assertAlmostEqual(float(row["area ratio with PHY and controller"]), 11 / 10)
 
-    def test_what_was_searched_for_both_orders(self):
+    def test_what_was_searched_for(self):
         """In cycles 1 / 2 and 4 / 2, in joules 3 / 3 and 12 / 3, in area 6 / 3."""
-        *_, row = self.made()
-        self.assertEqual(row["machine / baseline"], headline.SEARCHED_PAIR)
+        *_, of_gscore, row = self.made()
+        pairs = headline.SEARCHED_PAIRS
+        self.assertEqual(of_gscore["machine / baseline"], pairs["exact", "gscore"])
+        self.assertAlmostEqual(float(of_gscore["speed-up"]), 4)
+        self.assertEqual(of_gscore["picture"], "both: the reference picture")
+        self.assertEqual(row["machine / baseline"], pairs["exact", "paper"])
         self.assertAlmostEqual(float(row["speed-up"]), 1)
         self.assertAlmostEqual(float(row["energy, baseline over machine"]), 2)
         self.assertAlmostEqual(float(row["area ratio"]), 2)
@@ -371,7 +358,7 @@ class Headline(InFolder):
     def test_it_names_the_tables_that_it_is_from(self):
         self.made()
         made = tables.facts_of(self.folder, "headline")["made"]
-        names = (headline.CASES, headline.TUNED, headline.SEARCHED)
+        names = (headline.CASES, headline.SEARCHED)
         self.assertEqual(made["commits"], sorted(f"of {name}" for name in names))
         self.assertEqual(list(made["inputs"]), [f"{name}.csv" for name in names])
 
