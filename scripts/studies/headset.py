@@ -19,6 +19,8 @@ from runs import run_arguments
 from runs.keeper import Keeper
 from runs.scenes import REFUSED, Failure, Scene, answered, call, find_scenes, said
 from runs.simulations import FIT_MEMORIES, MB, MJ, check_memory_known
+from studies import headset_published
+from studies.headset_published import Setting
 from tables import SCENE, SIZE, Column, Study
 
 SCENES = ("truck", "playbot", "yard", "park", "platform", "garden")
@@ -276,6 +278,24 @@ def ratio_row(size: str, way: Way, pairs: Sequence[tuple[Taken, Taken]]) -> tupl
     return (size, pairs[0][0].peak_gb_s, way.name, *speed, *joules, area)
 
 
+def beside_rows(setting: Setting, peak_gb_s: float, ours: Mapping[str, Sequence[Taken]]) -> list:
+    """ours: by machine, of each scene."""
+    case = (setting.eyes, setting.size, peak_gb_s)
+    measured = [
+        (
+            *(*case, machine, statistics.geometric_mean(1 / t.seconds for t in of)),
+            *(min(1 / t.seconds for t in of), max(1 / t.seconds for t in of)),
+            *(statistics.fmean(t.bytes for t in of) / MB, max(t.mm2 for t in of), ""),
+        )
+        for machine, of in ours.items()
+    ]
+    published = [
+        (*case, each.machine, each.rate, None, None, each.mb, None, each.differs)
+        for each in headset_published.PUBLISHED[setting]
+    ]
+    return measured + published
+
+
 def power_row(case: Case, rate: int, report: dict) -> tuple:
     stream = report["stream"]
     flow, memory = stream["flow"], stream["flow"]["memory"]
@@ -355,7 +375,17 @@ def make_headset(arguments: argparse.Namespace) -> None:
     ways = {case: list(WAYS) for case in cases}
     for case in rated:
         ways[case] += map(at_rate, arguments.rates)
+    beside = {
+        (setting, machine): [
+            Case(scene, setting.size, setting.channels, machine).drawn(
+                PAIRS_BACK_TO_BACK if setting.eyes > 1 else BACK_TO_BACK, arguments
+            )
+            for scene in scenes
+        ]
+        for setting, machine in itertools.product(headset_published.PUBLISHED, machines)
+    }
     asked = [case.drawn(way, arguments) for case, of_case in ways.items() for way in of_case]
+    asked += [drawn for of_setting in beside.values() for drawn in of_setting]
     reports = drawn_all(arguments, asked)
     of = {c: {w: taken(reports[c.drawn(w, arguments)]) for w in WAYS} for c in cases}
     provenances = [
@@ -391,6 +421,11 @@ def make_headset(arguments: argparse.Namespace) -> None:
         for way in WAYS
     ]
     tables.write(arguments.out, "headset_ratios", by, RATIO_COLUMNS, rows, about)
+    rows = []
+    for setting in headset_published.PUBLISHED:
+        ours = {m: [taken(reports[drawn]) for drawn in beside[setting, m]] for m in machines}
+        rows += beside_rows(setting, ours[OURS][0].peak_gb_s, ours)
+    tables.write(arguments.out, "headset_published", by, headset_published.COLUMNS, rows, about)
     rows = [
         power_row(case, rate, reports[case.drawn(at_rate(rate), arguments)])
         for case in rated
@@ -408,6 +443,7 @@ two, by size and bandwidth; two eyes at the rates of a display. Makes
   headset_rates       frames a second, bytes, joules and area of a frame each way
   headset_second_eye  what the second eye adds to the first: bytes, cycles, joules, area
   headset_ratios      {GAIN} each way, over the scenes
+  headset_published   rates back to back beside those of Nebula and Neo, and what differs
   headset_power       watts by state of the memory, latency, at rates of a display
 
 Each machine is at its best, with all of it charged: GSCore's projects a frame while the one before

@@ -12,7 +12,7 @@ import tables
 from runs import simulations
 from runs.scenes import find_scene, program_provenance
 from runs.simulations import value_at
-from studies import headset, published
+from studies import headset, headset_published, published
 from studies.compare_machines import COMPARE_MACHINES
 from studies.stability import STABILITY_TABLE
 from studies.error_against_time import ERROR_AGAINST_TIME
@@ -20,6 +20,7 @@ from studies.fitting import BOUNDARY_STUDY, TRAINING_CURVES
 from studies.found import FAIR_FIGHT, PRESETS
 from studies.frame_costs import BINDING_CHECK, ENERGY, TIMING
 from studies.headset import HEADSET
+from studies.headset_published import Published, Setting
 from studies.matched import MATCHED_SCENES
 from studies.published import PAPER_CLAIMS, PUBLISHED_FIGURES
 from studies.reproduction import REPRODUCTION
@@ -195,6 +196,11 @@ class WithTheCommand(InFolder):
         """Frames back to back and two eyes; what is kept is not drawn again."""
         words = ("builtin:object?n=200", "--streaminggs", COMMAND, "--out", str(self.folder))
         words += ("--sizes", "48x32", "--channels", "4", "--rates", "500", "--frames", "2")
+        beside = {Setting(2, "48x32", 4): (Published("another", 1, None, "its scenes"),)}
+        with mock.patch.object(headset_published, "PUBLISHED", beside):
+            self.check_headset(words)
+
+    def check_headset(self, words):
         status, line, _ = self.ended(HEADSET, *words)
         self.assertEqual(status, 0, line)
         rows = tables.read_rows(self.folder, "headset_rates")
@@ -208,6 +214,11 @@ class WithTheCommand(InFolder):
         for row in tables.read_rows(self.folder, "headset_second_eye"):
             self.assertTrue(0 < float(row["bytes"]) < 1, row)
         self.assertEqual(len(tables.read_rows(self.folder, "headset_ratios")), 4)
+        *ours, other = tables.read_rows(self.folder, "headset_published")
+        for row in ours:
+            pairs = rate[row["machine"], "two eyes, back to back"]
+            self.assertAlmostEqual(float(row["frames/s"]), pairs)
+        self.assertEqual((len(ours), other["frames/s"]), (2, "1"))
         for row in tables.read_rows(self.folder, "headset_power"):
             self.assertEqual(row["missed"], "0")
             shares = [float(row[f"{state}, time"]) for state in headset.STATES]

@@ -11,7 +11,25 @@ from exploring.axes import Axis, Space, of_scene, parse_axes, parse_axis, read_p
 from runs import simulations
 from runs.scenes import REPOSITORY, find_scene, find_scenes
 from runs.simulations import pareto_front
-from studies import areas, cases, frame_costs, power, stability, variants
+from studies import areas, cases, frame_costs, power, stability, stream_shares, variants
+
+
+class StreamShares(unittest.TestCase):
+    def test_reads_are_told_apart_by_the_row_that_is_open(self):
+        trace = ["# head", "1 0 ACT 0 3 7", "2 0 RD 0 3 1", "3 0 ACT 0 3 8", "4 0 RDA 0 3 1"]
+        bursts, moved = stream_shares.read_bursts([*trace, "5 0 WR 0 3 1", "# commands 5"])
+        self.assertEqual([burst[3:] for burst in bursts], [("7", "1"), ("8", "1")])
+        self.assertEqual(moved, 3)
+        view = {"burst_bytes": 1e6}
+        frames = [(bursts, view), (bursts[:1], view), ([], view)]
+        self.assertEqual(stream_shares.row_of("s", "p", frames), ("s", "p", 2, 2, 0.5, 0))
+
+    def test_a_head_turns_and_moves_across(self):
+        start = {"position": [1, 2, 3], "rotation": [[0, 0, 1], [0, 1, 0], [-1, 0, 0]]}
+        moved = stream_shares.turned(start, 270)
+        got = [[round(value, 12) for value in row] for row in moved["rotation"]]
+        self.assertEqual(got, [[-1, 0, 0], [0, 1, 0], [0, 0, -1]])
+        self.assertEqual(moved["position"], [1, 2, 3 - 270 * stream_shares.DISTANCE])
 
 
 class Pareto(unittest.TestCase):
