@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Makes tables of results: a study each, whose table NAME.csv has a row a measurement and NAME.json
-says what its columns mean and what made it; and puts tables into the README.md files.
+says what its columns mean and what made it; and puts tables into Markdown pages.
 
   results.py --list              names the studies, and minutes that each took where they are known
   results.py STUDY --help        what it measures and takes
   results.py STUDY [ARGUMENTS]   makes its tables in out/results, or below --out
   results.py --all [STUDY...]    makes those in traces/results: the stated job of these, or of all
-  results.py --fill [README...]  tables into places in READMEs; all of them without any
+  results.py --fill [PAGE...]    tables into places in Markdown pages; all of them without any
   results.py --pages             writes README.md beside the tables, and out/results.html
   results.py --check             says what of these is out of date, and tables of several releases
 
@@ -81,7 +81,7 @@ class Jobs:
         """Raises ValueError when there is no such program."""
         self.keeper = Keeper(binary, kept / "jobs")
         self.scripts, self.kept, self.start = scripts, kept, start
-        sources = sorted(path for path in scripts.rglob("*.py"))
+        sources = sorted(path for end in ("py", "json") for path in scripts.rglob(f"*.{end}"))
         text = "".join(f"{path.relative_to(scripts)} {path.read_text()}" for path in sources)
         self.digest = hashlib.sha256(text.encode()).hexdigest()
 
@@ -164,7 +164,7 @@ def minutes_of(study: str, folder: pathlib.Path) -> float | None:
     """That its tables took which are there; None: nobody has timed it."""
     for name in results_page.names(folder):
         made = facts_of(folder, name)["made"]
-        if re.search(rf"\b{study}\b", made["command"]) and made.get("minutes") is not None:
+        if study in results_page.studies_of(made["command"]) and made.get("minutes") is not None:
             return made["minutes"]
     return None
 
@@ -248,16 +248,16 @@ def filled(text: str, folder: pathlib.Path) -> str:
     return PLACE.sub(content, text)
 
 
-def readmes(repository: pathlib.Path) -> Iterator[pathlib.Path]:
-    """Every README.md among the sources, sorted."""
-    for path in sorted(repository.rglob("README.md")):
+def markdown_files(repository: pathlib.Path) -> Iterator[pathlib.Path]:
+    """Every one among the sources, sorted."""
+    for path in sorted(repository.rglob("*.md")):
         top = path.relative_to(repository).parts[0]
         if top not in NOT_SOURCES and not top.startswith("."):
             yield path
 
 
 def fill(arguments: argparse.Namespace) -> None:
-    texts = {path: path.read_text() for path in arguments.fill or readmes(REPOSITORY)}
+    texts = {path: path.read_text() for path in arguments.fill or markdown_files(REPOSITORY)}
     new = {path: filled(text, arguments.tables) for path, text in texts.items()}
     for path in texts:
         if new[path] != texts[path]:
@@ -276,8 +276,8 @@ def write_pages(tables: pathlib.Path) -> None:
 
 
 def out_of_date(tables: pathlib.Path) -> list[str]:
-    """READMEs that are not what the tables give."""
-    texts = {path: filled(path.read_text(), tables) for path in readmes(REPOSITORY)}
+    """Pages that are not what the tables give."""
+    texts = {path: filled(path.read_text(), tables) for path in markdown_files(REPOSITORY)}
     texts[tables / results_page.README] = results_page.readme(tables)
     return [
         f"{path}: not what its tables give, --fill or --pages writes it"
@@ -333,13 +333,13 @@ def main() -> int:
         "--pages", action="store_true", help="write README.md beside the tables and the page of all"
     )
     parser.add_argument(
-        "--check", action="store_true", help="fail where READMEs or releases do not fit the tables"
+        "--check", action="store_true", help="fail where pages or releases do not fit the tables"
     )
     parser.add_argument(
         "--fill",
         nargs="*",
         type=pathlib.Path,
-        metavar="README",
+        metavar="PAGE",
         help="put tables into these, or into all; refused is what was made from changed sources",
     )
     parser.add_argument(

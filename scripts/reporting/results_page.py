@@ -161,11 +161,11 @@ def faults(folder: pathlib.Path) -> list[str]:
     said = []
     made = {name: facts_of(folder, name)["made"] for name in names(folder)}
     nameless = [name for name, of in made.items() if not of["commits"]]
-    if typed := [name for name in nameless if not by_study(made[name]["command"])]:
+    if typed := [name for name in nameless if not studies_of(made[name]["command"])]:
         by_hand = ", ".join(f"{name} (`{made[name]['command']}`)" for name in typed)
         said.append(f"{len(typed)} tables name no commit, since no study writes them: {by_hand}")
     if earlier := [name for name in nameless if name not in typed]:
-        again = ", ".join(f"{name} (--all {by_study(made[name]['command'])})" for name in earlier)
+        again = ", ".join(f"{name} (--all {studies_of(made[name]['command'])[0]})" for name in earlier)
         said.append(f"{len(earlier)} tables name no commit, to be made again: {again}")
     if unnamed := [name for name, of in made.items() if of["commits"] and not of["releases"]]:
         said.append(f"{len(unnamed)} tables name no release: {', '.join(unnamed)}")
@@ -182,10 +182,9 @@ def faults(folder: pathlib.Path) -> list[str]:
     return said
 
 
-def by_study(command: str) -> str:
-    """The study that a command of results.py runs; empty for another command."""
-    found = re.match(r"scripts/results\.py (\w+)", command)
-    return found[1] if found else ""
+def studies_of(command: str) -> list[str]:
+    """Those that its calls of results.py run."""
+    return re.findall(r"scripts/results\.py (?:--all )?(\w+)", command)
 
 
 def faults_of_sources(

@@ -155,12 +155,14 @@ class Places(InFolder):
                 else:
                     self.assertIn("12,345", results.filled(self.README, self.folder))
 
-    def test_readmes_of_sources_only(self):
+    def test_pages_of_sources_only(self):
         for name in ("", "modules/dram", "build/release", "out/x", ".git"):
             (self.folder / name).mkdir(parents=True, exist_ok=True)
-            (self.folder / name / "README.md").write_text("text\n")
-        found = [str(path.relative_to(self.folder)) for path in results.readmes(self.folder)]
-        self.assertEqual(found, ["README.md", "modules/dram/README.md"])
+            for page in ("README.md", "PAPER.md"):
+                (self.folder / name / page).write_text("text\n")
+        found = [str(path.relative_to(self.folder)) for path in results.markdown_files(self.folder)]
+        pages = ["PAPER.md", "README.md", "modules/dram/PAPER.md", "modules/dram/README.md"]
+        self.assertEqual(found, pages)
 
     def test_from_the_command_line(self):
         with contextlib.redirect_stdout(io.StringIO()):
@@ -337,12 +339,18 @@ class Pages(InFolder):
             self.assertEqual(results.out_of_date(results.TABLES), [])
 
     def test_minutes_of_studies(self):
-        by = Made("scripts/results.py energy a; scripts/results.py energy b", (), minutes=12.4)
-        self.write_table("energy_groups", by)
-        status, _, out = self.ended(results, "--list", "--tables", str(self.tables))
-        self.assertEqual(status, 0)
-        self.assertRegex(out, r"energy +12 min  Where the energy of a frame goes")
-        self.assertRegex(out, r"binding_check +not timed  Whether")
+        """Not by other words of a command."""
+        for command in (
+            "scripts/results.py energy a; scripts/results.py energy b",
+            "scripts/results.py --all energy",
+        ):
+            by = Made(f"{command} --machines timing", (), minutes=12.4)
+            self.write_table("energy_groups", by)
+            status, _, out = self.ended(results, "--list", "--tables", str(self.tables))
+            self.assertEqual(status, 0)
+            self.assertRegex(out, r"energy +12 min  Where the energy of a frame goes")
+            for name in ("timing", "stability_table"):
+                self.assertRegex(out, rf"{name} +not timed  \w")
 
     def test_what_a_person_says_stays(self):
         said = "A person says this."
@@ -475,13 +483,15 @@ jobs.make(study, here / "made")
         facts = json.loads((self.folder / "made" / "one.json").read_text())
         first = facts["made"]["minutes"]
         self.assertGreater(first, 0)
-        # Of another script everything is made again, of what is kept: so the first time counts.
-        with (self.scripts / "results.py").open("a") as file:
-            print("# changed", file=file)
-        subprocess.run(self.words(*self.BOTH), check=True)
-        self.assertEqual(self.calls(), ["a", "b", "a", "b"])
-        facts = json.loads((self.folder / "made" / "one.json").read_text())
-        self.assertGreater(facts["made"]["minutes"], first)
+        # Of another script, or data of one, everything is made again, of what is kept: so the first
+        # time counts.
+        for times, name in ((2, "results.py"), (3, "listed.json")):
+            with (self.scripts / name).open("a") as file:
+                print("# changed", file=file)
+            subprocess.run(self.words(*self.BOTH), check=True)
+            self.assertEqual(self.calls(), ["a", "b"] * times)
+            facts = json.loads((self.folder / "made" / "one.json").read_text())
+            self.assertGreater(facts["made"]["minutes"], first)
 
     def test_what_a_job_reads(self):
         """Scenes and data sets of ../shared by name, all of them without one, programs, tables of
