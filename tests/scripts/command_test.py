@@ -1,6 +1,7 @@
 """Every script makes its tables with the command; skipped where $STREAMINGGS does not name it."""
 
 import csv
+import json
 import pathlib
 import subprocess
 import unittest
@@ -12,7 +13,8 @@ import tables
 from runs import simulations
 from runs.scenes import find_scene, program_provenance
 from runs.simulations import value_at
-from studies import headset, headset_published, published
+from studies import choices, headset, headset_published, published
+from studies.choices import CHOICES
 from studies.compare_machines import COMPARE_MACHINES
 from studies.stability import STABILITY_TABLE
 from studies.error_against_time import ERROR_AGAINST_TIME
@@ -70,6 +72,13 @@ class WithTheCommand(InFolder):
                 TIMING,
                 ("--object-sizes", "64x36", "--machines", "exact", "--repeats", "1"),
                 {"| truck | 64x36 | 25.6 | exact |": 2, "| 47.70 |": 1},
+            ),
+            (
+                CHOICES,
+                ("--size", "64x36", "--view", "0"),
+                {"Made by ": len(choices.listed()), "| exact_wide | truck |": 1}
+                | {"in flight | truck |": 1, "| dram.scheduler=fcfs |": 1}
+                | {"| paper | fine | 0 |": 1, "{": 0, "None": 0},
             ),
             (COMPARE_VARIANTS, ("--size", "64x36"), {"| truck |": 8 + 1, "| StreamingGS |": 1}),
             (
@@ -184,6 +193,24 @@ class WithTheCommand(InFolder):
         (self.folder / "compare_machines_bytes.csv").unlink()
         done = subprocess.run(script, capture_output=True, text=True, check=False)
         self.assertRegex(done.stdout, "skipped compare_machines_traffic: .*_bytes.csv is not there")
+
+    def test_choices_stand_beside_the_preset(self):
+        """Changes, what the preset has, and datapaths, which only whole reports have."""
+        names = ("streaming_sensitivity", "gscore_storage_order", "pixel_counts")
+        made = self.made(CHOICES, "--size", "64x36", "--tables", *names)
+        self.assertEqual(made.count("View 0, 64x36 px."), 2)
+        self.assertIn("Scene truck, view 0, 64x36 px.", made)
+        kept = (self.folder / "kept" / "choices.jsonl").read_text()
+        taken = {}
+        for each in map(json.loads, kept.splitlines()):
+            settings = {*each["point"]["set"].items()} - {("sram.shared_bytes", 0)}
+            taken[each["point"]["config"], *settings] = each["report"]["frame"]["cycles"]
+        for row in tables.read_rows(self.folder, names[0]):
+            key, _, text = row["change"].partition("=")
+            cycles = taken[row["preset"], (key, int(text))]
+            self.assertAlmostEqual(
+                float(row["cycles, %"]), 100 * (cycles / taken[(row["preset"],)] - 1)
+            )
 
     def test_an_interruption_loses_no_simulation(self):
         small = ("--sizes", "64x36", "--object-sizes", "64x36", "--channels", "4", "--view", "0")
@@ -352,6 +379,8 @@ class WithTheCommand(InFolder):
             (COMPARE_MACHINES, ("--machines", "nope"), "--config nope: no file"),
             (COMPARE_MACHINES, ("--channels", "3"), "dram.channels: got 3, expected a power"),
             (COMPARE_VARIANTS, ("--view", "x"), "--view: 'x', expected numbers"),
+            (CHOICES, ("--view", "0,1"), "--view: got 0,1, expected the number of a camera"),
+            (CHOICES, ("--size", "3"), "--size: got 3, expected WIDTHxHEIGHT in px"),
             (TIMING, ("--view", "7"), "--view: got '7'"),
             (TIMING, ("--machines", "nope"), "--config nope: no file"),
             (WORK_PRECISION, ("--view", "7"), "--view: got '7'"),

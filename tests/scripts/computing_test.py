@@ -1,17 +1,30 @@
 """What the scripts compute themselves."""
 
+import json
 import math
 import pathlib
+import re
 import tempfile
 import unittest
+from unittest import mock
 
 import in_folder  # noqa: F401, isort: skip (finds the scripts)
+import results
 from exploring import measures
 from exploring.axes import Axis, Space, of_scene, parse_axes, parse_axis, read_points
 from runs import simulations
-from runs.scenes import REPOSITORY, find_scene, find_scenes
+from runs.scenes import REPOSITORY, Scene, find_scene, find_scenes
 from runs.simulations import pareto_front
-from studies import areas, cases, frame_costs, power, stability, stream_shares, variants
+from studies import (
+    areas,
+    cases,
+    choices,
+    frame_costs,
+    power,
+    stability,
+    stream_shares,
+    variants,
+)
 
 
 class StreamShares(unittest.TestCase):
@@ -600,6 +613,85 @@ class Reports(unittest.TestCase):
                 row = frame_costs.binding_row("x", answer)
                 self.assertEqual(row[4], gains[0])
                 self.assertEqual(row[6:], (max(gains), most, noise, "" if most else "why"))
+
+
+class Choices(unittest.TestCase):
+    """What choices.json lists, and what its cells are."""
+
+    LISTED = json.loads(choices.LISTED.read_text())
+    PAGES = ("modules/streaminggs", "modules/gscore", "modules/dram", "algorithm/memory")
+
+    def test_settings_are_keys_and_presets_are_there(self):
+        pages = [(REPOSITORY / page / "KEYS.md").read_text() for page in self.PAGES]
+        keys = {key for page in pages for key in re.findall(r"^\| `([\w.]+)`", page, re.MULTILINE)}
+        presets = {path.stem for path in variants.CONFIGS.glob("*.json")}
+        for of in choices.listed().values():
+            named = re.findall(r"{([\w.]+)}", of.about)
+            for runs in of.runs:
+                with self.subTest(of.name, presets=runs.presets):
+                    text = " ".join([runs.set, *runs.rows])
+                    given = {setting.partition("=")[0] for setting in text.split()}
+                    self.assertLessEqual({*given, *named}, keys | {simulations.GROUP})
+                    self.assertLessEqual(set(runs.presets), presets)
+
+    def test_nothing_stands_there_twice_or_for_nobody(self):
+        names = [of["name"] for of in self.LISTED["tables"]]
+        self.assertEqual(len(set(names)), len(names))
+        texts = [path.read_text() for path in results.markdown_files(REPOSITORY)]
+        for of in choices.listed().values():
+            with self.subTest(of.name):
+                place = f"<!-- table: {of.name} -->"
+                self.assertEqual(sum(text.count(place) for text in texts), 1)
+                with mock.patch.object(choices, "find_scene", lambda name: Scene(name, name)):
+                    rows = [(row.run, row.at) for row in choices.asked(of)]
+                self.assertEqual(len(set(rows)), len(rows))
+        used = {column.name for of in choices.listed().values() for column in of.columns}
+        self.assertEqual(used, set(self.LISTED["columns"]))
+
+    def view(self, cycles: int, spilled: int) -> dict:
+        """Of four Gaussians of 16 and 40 B, in a frame of 30 B."""
+        regions = {"first_halves": 70, "second_halves": 160, "spill": spilled, "frame_buffer": 30}
+        requested = {name: {"unit": {"read": count}} for name, count in regions.items()}
+        return {
+            "frame": {"cycles": cycles},
+            "scene": {"second_half_bytes": 40},
+            "limit": {"contributing_gaussians": 4, "bytes_read_once": 4 * 56 + 30},
+            "dram": {
+                "bytes_by_region": requested,
+                "bus_bytes_by_region": {"spill": spilled},
+                "row_hits": 3,
+                "row_misses": 1,
+                "row_conflicts": 2,
+            },
+            "units": {"vsu": {"waited": 2}},
+            "datapath": {"fine": {"macs": 9}},
+        }
+
+    def test_cells(self):
+        run = simulations.Run(Scene("truck", "truck.ply"), size="64x36")
+        before, after = self.view(8, 0), self.view(10, 127)
+        of = choices.Measured(run, "hfus=4", "datapath.fine", after, before)
+        for text, expected in (
+            ("scene", "truck"),
+            ("size", "64x36"),
+            ("settings", "hfus=4"),
+            ("part", "fine"),
+            ("frame.cycles", 10),
+            (".macs", 9),
+            ("of_preset:frame.cycles", 8),
+            ("change:frame.cycles", 25),
+            ("of_frame:units.vsu.waited", 20),
+            ("row_hits", 50),
+            ("bus_mb:spill", 127e-6),
+            ("over_limit:first_halves", 6 / 254),
+            ("over_limit:second_halves", 0),
+            ("over_limit:spill", 0.5),
+        ):
+            with self.subTest(text):
+                self.assertEqual(choices.value(of, text), expected)
+        for text, said in (("frame.nope", "nope: not in the report"), ("change:units", "got {")):
+            with self.subTest(text), self.assertRaisesRegex(ValueError, said):
+                choices.value(of, text)
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ import results
 from runs import simulations
 from runs.scenes import Failure, Scene
 from studies import error_against_time
+from studies.choices import CHOICES
 from studies.compare_machines import COMPARE_MACHINES
 from studies.stability import STABILITY_TABLE
 from studies.error_against_time import ERROR_AGAINST_TIME
@@ -60,6 +61,7 @@ class Simulator(InFolder):
 SCRIPTS = (
     (BINDING_CHECK, ()),
     (BOUNDARY_STUDY, ()),
+    (CHOICES, ("--tables", "merge_heap")),
     (COMPARE_VARIANTS, ()),
     (ENERGY, ()),
     (explore, ("--axis", "hfus=2,4")),
