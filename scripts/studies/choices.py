@@ -277,7 +277,7 @@ def write(
 CHOICES = Study(
     "choices",
     """Single keys and sizes of machines: what the frame takes with another value of them. Makes the
-tables that choices.json lists, beside the study's source.
+tables that choices.json lists, beside the study's source; another table needs no code.
 """,
     ("results.py choices",),
     add_arguments,
