@@ -1,6 +1,7 @@
 """Every script makes its tables with the command; skipped where $STREAMINGGS does not name it."""
 
 import csv
+import dataclasses
 import json
 import pathlib
 import subprocess
@@ -13,7 +14,7 @@ import tables
 from runs import simulations
 from runs.scenes import find_scene, program_provenance
 from runs.simulations import value_at
-from studies import choices, headset, headset_published, published
+from studies import choices, claims, headset, headset_published, published, reproduction
 from studies.choices import CHOICES
 from studies.compare_machines import COMPARE_MACHINES
 from studies.stability import STABILITY_TABLE
@@ -99,12 +100,6 @@ class WithTheCommand(InFolder):
             ),
             (PAPER_CLAIMS, ("--size", "64x36"), {"| area, mm2 | 5.37 |": 1, "| claim |": 1}),
             (MATCHED_SCENES, ("--size", "64x36"), {"| GSCore, frames/s | 106 | 79.5 | 132.5 |": 1}),
-            (
-                REPRODUCTION,
-                ("--size", "64x36", "--groups", "32", "--channels", "4"),
-                {"| times as fast as GSCore | 2.1 |": 2, "| truck | paper_ideal | 32 |": 1}
-                | {"| forwards | all assumptions |": 1, "| backwards | deep queues |": 1},
-            ),
             (
                 explore,
                 ("--recipe", "paper_in_area", "--size", "64x36", "--trials", "2"),
@@ -254,6 +249,21 @@ class WithTheCommand(InFolder):
             self.assertAlmostEqual(sum(watts), float(row["memory W"]))
         with mock.patch.object(headset, "call", side_effect=AssertionError("drawn again")):
             self.assertEqual(self.ended(HEADSET, *words)[0], 0)
+
+    @nightly
+    def test_the_paper_is_reproduced_from_small_frames(self):
+        kinds = {"REAL": claims.REAL, "SYNTHETIC": claims.SYNTHETIC}
+        small = {name: dataclasses.replace(kind, size="64x36") for name, kind in kinds.items()}
+        words = ("--synthetic", "builtin:object?n=200", "--groups", "32", "--channels", "4")
+        with mock.patch.multiple(reproduction, **small):
+            made = self.made(REPRODUCTION, *words)
+        for text, lines in (
+            ("| times as fast as GSCore | 2.1 |", 2),
+            ("| truck | 64x36 | paper_ideal | 32 |", 1),
+            ("| forwards | all assumptions |", 1),
+            ("| backwards | deep queues |", 1),
+        ):
+            self.assertEqual(made.count(text), lines, f"{text}: {made}")
 
     def test_published_figures_stand_beside_ours(self):
         small = {
