@@ -42,8 +42,10 @@ PATHS = (
 )
 NEEDED = PATHS[:4]  # what every machine has; it takes time
 FITTED = "fit_memories"
-OF_POINT = ("scene", "cameras", "view", "size", "config", FITTED)
+OF_POINT = ("scene", "cameras", "view", "size", "stereo", "config", FITTED)
 NAMED = ("scene", "view", "config")  # of these, what every point has
+
+Case = tuple[str, str, str, str, str]  # scene, view, size, stereo, cameras
 
 
 @dataclasses.dataclass(frozen=True)
@@ -61,9 +63,9 @@ class Point:
     commit: str = ""
     technology: tuple[str, str] = ("", "")
 
-    def case(self) -> tuple[str, str, str, str]:
-        size, cameras = self.asked.get("size", ""), self.asked.get("cameras", "")
-        return self.asked["scene"], self.asked["view"], size, cameras
+    def case(self) -> Case:
+        more = (self.asked.get(name, "") for name in ("size", "stereo", "cameras"))
+        return self.asked["scene"], self.asked["view"], *more
 
     def machine(self) -> tuple:
         """Equal for points that have been asked for with the same configuration."""
@@ -71,7 +73,7 @@ class Point:
 
     def command(self) -> str:
         words = ["streaminggs", "simulate", self.asked["scene"], "--config", self.asked["config"]]
-        for name in ("cameras", "view", "size"):
+        for name in ("cameras", "view", "size", "stereo"):
             if value := self.asked.get(name):
                 words += [f"--{name}", value]
         words += ["--fit-memories"] if FITTED in self.asked else []
@@ -207,7 +209,6 @@ def read_sweep(path: pathlib.Path) -> list[Point]:
     return list(last.values())
 
 
-Case = tuple[str, str, str, str]
 BY_SCENE = "differs by scene"
 
 
@@ -349,9 +350,9 @@ def section(machines: Sequence[Machine], title: str, most: int) -> str:
 
 def name_of(case: Case, all_cases: Collection[Case]) -> str:
     """Cameras only where others have all else."""
-    scene, view, size, cameras = case
-    alike = [other for other in all_cases if other[:3] == case[:3]]
-    more = (size, cameras if len(alike) > 1 else "")
+    scene, view, size, stereo, cameras = case
+    alike = [other for other in all_cases if other[:4] == case[:4]]
+    more = (size, stereo, cameras if len(alike) > 1 else "")
     return ", ".join([scene, f"view {view}", *filter(None, more)])
 
 

@@ -26,6 +26,7 @@
 #include "testbench/streaminggs/run/clock_check.h"
 #include "testbench/streaminggs/run/path_run.h"
 #include "testbench/streaminggs/run/scene_arguments.h"
+#include "testbench/streaminggs/run/second_eye.h"
 #include "testbench/streaminggs/run/stream_run.h"
 #include "testbench/streaminggs/run/view_run.h"
 
@@ -98,38 +99,6 @@ void check_groups(const std::string& text, const GroupRange& range, const Machin
   if (range.last < count) return;
   throw InputError(fmt::format("--timeline-groups: got '{}', the frame has {}: expected 0 to {}",
                                text, count, count - 1));
-}
-
-// Distance of the eyes, world units; 0: there is one.
-double eyes_apart(const std::string& stereo) {
-  constexpr double kMostApart = 1e6;  // the unit may be a micrometre
-  if (stereo.empty()) return 0;
-  const std::string key = "ipd=";
-  double distance = 0;
-  const char* const end = stereo.data() + stereo.size();
-  const bool named = stereo.rfind(key, 0) == 0;
-  const auto read = std::from_chars(stereo.data() + (named ? key.size() : 0), end, distance);
-  if (!named || read.ec != std::errc() || read.ptr != end || !(distance > 0) ||
-      distance > kMostApart) {
-    throw InputError(fmt::format(
-        "--stereo: got '{}', expected ipd=DISTANCE of the eyes in world units, above 0 and at most "
-        "{}: their axes are parallel",
-        stereo, kMostApart));
-  }
-  return distance;
-}
-
-// Refuses a machine for other eyes than --stereo draws for.
-void check_eyes_given(RunConfig& config, bool two) {
-  for (const ConfigOrigin& value : config.origins) {
-    if (value.path != "eyes") continue;
-    const Json eyes = parse_json(to_json(config), "the configuration").at("eyes");
-    if ((eyes > 1) == two) continue;
-    throw InputError(
-        fmt::format("{}: eyes: got {} {} --stereo, expected {}: --stereo sets it, and says how far "
-                    "they are apart",
-                    value.origin, eyes.dump(), two ? "with" : "without", two ? 2 : 1));
-  }
 }
 
 // One file each of one simulation.
@@ -241,8 +210,7 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   std::optional<PackedScene> packed = arguments.load_packed();
   check_cameras_of_path(arguments, config.storage.encoding, packed.has_value());
   const double apart = eyes_apart(arguments.stereo);
-  check_eyes_given(config, apart > 0);
-  if (apart > 0) config.design->draw_two_eyes();
+  draw_eyes(config, apart);
   std::vector<Camera> keys;
   std::optional<PathJob> path;
   if (!arguments.path.empty()) path = path_job(arguments, keys);
@@ -349,9 +317,7 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
       "the path's frames back to back in one simulation, shown at --frame-rate; as fast as it "
       "goes with 0, or none");
   line.needs("--stream", "--path");
-  line.text("--stereo", arguments->stereo,
-            "a second eye beside each camera, as ipd=0.064 to its right in world units, with "
-            "parallel axes: a frame is two pictures");
+  add_stereo_to(line, arguments->stereo);
   line.excludes("--view", "--path");
   line.needs("--frames", "--path");
   line.file("--technology", arguments->technology, "table of energy and area");

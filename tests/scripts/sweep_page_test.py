@@ -76,6 +76,14 @@ class Read(InFolder):
             fitted.command(), plain.command().replace(" --set", " --fit-memories --set")
         )
 
+    def test_frames_of_two_eyes_are_beside_no_frame_of_one(self):
+        path = self.folder / "sweep.jsonl"
+        path.write_text(line(9, 1, 1) + line(9, 1, 1, stereo="ipd=1"))
+        points = read_sweep(path)
+        self.assertIn(" --stereo ipd=1 ", points[1].command())
+        panels = dict(sweep.panels(points))
+        self.assertEqual(list(panels)[1:], ["s, view 0", "s, view 0, ipd=1"])
+
     def test_the_front_is_of_time_area_and_energy(self):
         points = [
             *((100, 5.0, 1.0), (200, 4.0, 1.0), (300, 4.5, 0.5)),  # each best in something

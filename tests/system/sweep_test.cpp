@@ -58,6 +58,7 @@ TEST_CASE("sweep: a result is simulate's report of that point, to the digit") {
   struct Case {
     std::string config, settings;
     int view;
+    std::string stereo = {};
   };
   const std::vector<Case> cases = {
       {"exact", "", 0},
@@ -69,7 +70,10 @@ TEST_CASE("sweep: a result is simulate's report of that point, to the digit") {
       {"exact_vq_packed", "", 1},
       {"paper", "storage.voxel_size=0", 0},
       {"paper_no_vq", "vsu.ray_step_px=4", 1},
-      {"gscore", "tiles.reach=visible", 0}};
+      {"gscore", "tiles.reach=visible", 0},
+      {"exact", "group_width_px=32 group_height_px=32", 0, "ipd=0.064"},
+      {"exact_vq", "group_width_px=32 group_height_px=32", 1, "ipd=2"},
+      {"gscore", "", 1, "ipd=0.064"}};
   std::string points;
   for (const Case& c : cases) {
     Json set = Json::object();
@@ -79,7 +83,9 @@ TEST_CASE("sweep: a result is simulate's report of that point, to the digit") {
       const bool is_json = Json::accept(value);
       set[word.substr(0, word.find('='))] = is_json ? Json::parse(value) : Json(value);
     }
-    points += Json{{"config", c.config}, {"set", set}, {"view", c.view}}.dump() + "\n";
+    Json point = {{"config", c.config}, {"set", set}, {"view", c.view}};
+    if (!c.stereo.empty()) point["stereo"] = c.stereo;
+    points += point.dump() + "\n";
   }
   scratch.write("points", points);
   const std::string scene = "'builtin:object?n=1500' --size 96x54 ";
@@ -89,6 +95,7 @@ TEST_CASE("sweep: a result is simulate's report of that point, to the digit") {
   for (const Case& c : cases) {
     std::string line = "$SG simulate " + scene + "--out o --config " + c.config + " --view " +
                        std::to_string(c.view);
+    if (!c.stereo.empty()) line += " --stereo " + c.stereo;
     std::istringstream words(c.settings);
     for (std::string word; words >> word;) line += " --set " + word;
     INFO(line);
@@ -105,6 +112,27 @@ TEST_CASE("sweep: a result is simulate's report of that point, to the digit") {
     }
     CHECK(found == 1);
   }
+}
+
+TEST_CASE("sweep: results of one eye and of two, near and far, are kept apart") {
+  const ScratchFolder scratch;
+  for (const char* stereo : {"", "--stereo ipd=0.1", "--stereo ipd=0.2"}) {
+    for (const bool kept : {false, true}) {
+      const ShellOutcome outcome = shell(scratch, std::string("$SG sweep $B --config gscore ") +
+                                                      stereo + " --axis ccus=2 --out r.jsonl");
+      require_done(outcome);
+      CHECK((outcome.out.find("; 1 of them by an earlier sweep") != std::string::npos) == kept);
+    }
+  }
+  std::vector<Json> said;
+  for (const Json& result : results_in(scratch, "r.jsonl")) {
+    said.push_back({result["point"].value("stereo", ""), result["report"]["config"]["eyes"]});
+  }
+  CHECK((said == std::vector<Json>{{"", 1}, {"ipd=0.1", 2}, {"ipd=0.2", 2}}));
+  check_refused(scratch, "$SG sweep $B --stereo ipd=1 --config paper --axis hfus=2 --out q.jsonl",
+                {"--stereo ipd=1 paper hfus=2: --stereo: got it with a machine that draws one"});
+  check_refused(scratch, "$SG sweep $B --axis eyes=2 --out q.jsonl",
+                {"eyes: got 2 without --stereo, expected 1"});
 }
 
 TEST_CASE("sweep: a packed scene is taken, and what does not go with it is refused") {

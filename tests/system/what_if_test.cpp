@@ -81,6 +81,11 @@ TEST_CASE("what-if: it begins from the machine that simulate runs, of each kind"
   check_base(with_settings(joined(kSmall, {"--fit-memories"}), {"hfus=8"}));
 }
 
+TEST_CASE("what-if: it begins from the machine that simulate runs, of two eyes") {
+  const Arguments pair = joined(kSmall, {"--stereo", "ipd=0.1", "--fit-memories"});
+  for (const char* preset : {"exact", "gscore"}) check_base(joined(pair, {"--config", preset}));
+}
+
 TEST_CASE("what-if: it begins from the machine that simulate runs, other presets", "[nightly]") {
   check_presets({"exact", "exact_fp16", "exact_half", "exact_vq", "exact_vq_packed", "exact_wide",
                  "gscore_fp32_keys", "paper", "paper_no_cgf", "paper_no_vq_cgf"});

@@ -50,6 +50,7 @@ std::string text_of(const Camera& camera) {
   if (camera.principal_offset != glm::dvec2(0)) {
     text += fmt::format(" {} {}", camera.principal_offset.x, camera.principal_offset.y);
   }
+  if (camera.eyes_apart != 0) text += fmt::format(" eyes {}", camera.eyes_apart);
   return text + " " + camera.name;
 }
 

@@ -5,6 +5,7 @@
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/output_file.h"
+#include "testbench/streaminggs/run/second_eye.h"
 
 namespace sgs {
 namespace {
@@ -32,6 +33,7 @@ void SweepArguments::add_to(CommandLine& line) {
              "built-in scenes bring "
              "their own; may be repeated");
   all.add_choice_of_views_to(line);
+  add_stereo_to(line, stereo);
   all.add_weighing_to(line);
   all.add_reading_to(line);
   line.file("--technology", technology, "table of energy and area");

@@ -20,6 +20,7 @@ struct SweepArguments {
   ConfigSource config;
   std::vector<std::string> axes;
   std::string points, out, csv;
+  std::string stereo;  // of all points that do not say theirs
   std::string technology = data_file("technology_32nm.json");
   std::uint32_t side_by_side = std::max(1U, std::thread::hardware_concurrency());
 

@@ -68,9 +68,13 @@ void print_end(const SweepCounts& counts, std::uint64_t empty, const std::string
 int run(const SweepArguments& arguments, const Kinds& kinds) {
   const auto began = std::chrono::steady_clock::now();
   std::vector<SweepPoint> points = arguments.listed_points();
-  SweepDefaults defaults{arguments.all,      arguments.each_scene(),
-                         arguments.all.view, arguments.all.size,
-                         arguments.config,   xxh64_of_file(arguments.technology)};
+  SweepDefaults defaults{arguments.all,
+                         arguments.each_scene(),
+                         arguments.all.view,
+                         arguments.all.size,
+                         arguments.stereo,
+                         arguments.config,
+                         xxh64_of_file(arguments.technology)};
   if (defaults.scenes.empty() && !arguments.axes.empty()) {
     throw InputError(fmt::format("SCENE: got none, expected {}", kSceneForms));
   }

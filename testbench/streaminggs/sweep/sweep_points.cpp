@@ -71,13 +71,15 @@ std::vector<std::string> overrides_at(const JsonPlace& point) {
 SweepPoint point_of_json(const std::string& line, const std::string& origin) {
   const Json json = parse_json(line, origin);
   const JsonPlace place(origin, json);
-  place.expect_only({"id", "scene", "cameras", "view", "size", "config", "fit_memories", "set"});
+  place.expect_only(
+      {"id", "scene", "cameras", "view", "size", "stereo", "config", "fit_memories", "set"});
   SweepPoint point;
   if (const auto id = place.find("id")) point.id = shown(id->json());
   point.scene = text_at(place, "scene");
   point.cameras = text_at(place, "cameras");
   point.view = view_at(place);
   point.size = text_at(place, "size");
+  point.stereo = text_at(place, "stereo");
   point.config = text_at(place, "config");
   if (const auto fit = place.find("fit_memories")) point.fit_memories = fit->flag();
   point.overrides = overrides_at(place);

@@ -10,12 +10,12 @@ namespace sgs {
 // A configuration, and what it differs in from the sweep's command line: an empty text stands for
 // what was said there.
 struct SweepPoint {
-  std::string id;                          // JSON; what its answer is to be known by
-  std::string scene, cameras, view, size;  // as the options of these names
-  std::string config;                      // a preset or a file
-  std::vector<std::string> overrides;      // "key.path=value", over those of the command line
-  std::optional<bool> fit_memories;        // as the option
-  std::string refused;                     // why this is no point at all
+  std::string id;                                  // JSON; what its answer is to be known by
+  std::string scene, cameras, view, size, stereo;  // as the options of these names
+  std::string config;                              // a preset or a file
+  std::vector<std::string> overrides;  // "key.path=value", over those of the command line
+  std::optional<bool> fit_memories;    // as the option
+  std::string refused;                 // why this is no point at all
 };
 
 // All combinations of axes "KEY=V1,V2,...", the last axis changing fastest. Throws InputError.
@@ -23,7 +23,8 @@ std::vector<SweepPoint> grid_of(const std::vector<std::string>& axes);
 
 // A line: "KEY=VALUE KEY=VALUE ...", or a JSON object of
 //   "set"     {"key.path": value, ...}
-//   "id", "scene", "cameras", "view" (a number or text), "size", "config", "fit_memories" (a truth)
+//   "id", "scene", "cameras", "view" (a number or text), "size", "stereo", "config", "fit_memories"
+//   (a truth)
 // each of which may be left out. place: of the line, for messages. Throws InputError.
 SweepPoint parse_point(const std::string& line, const std::string& place);
 

@@ -35,6 +35,7 @@ Json json_of(const PointInWords& point) {
   const bool number = error == std::errc() && stop == end;
   out["view"] = number ? Json(view) : Json(point.view);
   if (!point.size.empty()) out["size"] = point.size;
+  if (!point.stereo.empty()) out["stereo"] = point.stereo;
   out["config"] = point.config;
   if (point.fit_memories) out["fit_memories"] = true;
   out["set"] = settings_of(point.overrides);
@@ -114,6 +115,7 @@ std::string in_short(const std::string& line) {
   std::string text = point["scene"];
   if (point["view"].is_number()) text += " view " + point["view"].dump();
   if (point.contains("size")) text += " " + point["size"].get<std::string>();
+  if (point.contains("stereo")) text += " --stereo " + point["stereo"].get<std::string>();
   text += " " + point["config"].get<std::string>();
   if (point.contains("fit_memories")) text += " --fit-memories";
   for (const auto& [key, value] : point["set"].items()) {

@@ -13,7 +13,7 @@ constexpr const char* kPointFailed = "failed";
 
 // The point that was asked for, in its user's words.
 struct PointInWords {
-  std::string scene, cameras, view, size, config;  // empty: not said
+  std::string scene, cameras, view, size, stereo, config;  // empty: not said
   std::vector<std::string> overrides;
   bool fit_memories = false;
 };

@@ -30,6 +30,11 @@ ExpectedFrame expected_of(const MachineDesign& design, const PreparedScene& scen
   out.golden = design.golden(scene.stored, job.frame, unread);
   out.bytes = encode_frame(job.frame.frame_format, out.golden.image);
   out.judged = judge_frame(scene, job, pictures, out.golden, out.bytes);
+  if (job.frame.eyes > 1) {
+    out.right_bytes = encode_frame(job.frame.frame_format, out.golden.right);
+    out.right =
+        judge_right_eye(scene, job.frame, out.golden, out.right_bytes, design.draws_reference());
+  }
   out.golden.in_order = {};  // may read the scene, which need not stay
   return out;
 }
@@ -40,9 +45,10 @@ std::uint64_t size_bytes(const ReferencePictures& pictures) {
   return bytes_of(pictures.reference) + bytes_of(pictures.decoded_reference);
 }
 
-// Golden and judged picture, and those of the loss.
+// Golden and judged picture, those of the loss, and the same of a right eye.
 std::uint64_t size_bytes(const ExpectedFrame& expected) {
-  return (expected.judged.order_loss ? 5 : 3) * bytes_of(expected.golden.image);
+  return ((expected.judged.order_loss ? 5 : 3) + (expected.right ? 4 : 0)) *
+         bytes_of(expected.golden.image);
 }
 
 SweepSimulations::SweepSimulations(const SweepPlan& plan, Technology technology, RunFacts facts,
@@ -83,11 +89,12 @@ std::unique_ptr<ChildProcess> SweepSimulations::start(const SweepTask& task) {
   return std::make_unique<ChildProcess>([&] {
     FrameResult frame =
         simulate_frame(*config.design, job.frame, scene->stored.image, config.dram, {});
-    if (frame.frame != expected->bytes) {
+    if (frame.frame != expected->bytes || frame.right_frame != expected->right_bytes) {
       throw std::runtime_error("the frame differs from the streaming renderer's");
     }
     ViewResult view = view_result(*scene, job, *references, expected->golden, expected->judged,
                                   std::move(frame), config.dram, technology_);
+    view.right = expected->right;
     view.equals_golden = true;
     return line_of_done(task.key, task.words, *RunReport(config, facts_).of_view(view, *scene));
   });

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -22,8 +23,9 @@ namespace sgs {
 // The frame that a machine must give, and what it is worth.
 struct ExpectedFrame {
   GoldenFrame golden;
-  std::vector<std::byte> bytes;  // the frame buffer's
+  std::vector<std::byte> bytes, right_bytes;  // the frame buffers'
   JudgedFrame judged;
+  std::optional<RightEye> right;
 };
 
 // Host memory that they use, in bytes.

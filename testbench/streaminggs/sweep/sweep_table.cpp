@@ -9,7 +9,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kOfPoint[] = {"scene", "cameras", "view", "size", "config", "fit_memories"};
+constexpr const char* kOfPoint[] = {"scene",  "cameras", "view",        "size",
+                                    "stereo", "config",  "fit_memories"};
 // Keys of every configuration with groups, whoever chose them.
 constexpr const char* kGroup[] = {"group_width_px", "group_height_px"};
 // A column of a table, and where the report has it. On-chip memory that is needed has another name

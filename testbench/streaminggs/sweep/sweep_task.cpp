@@ -16,14 +16,16 @@
 #include "testbench/builtin/builtin_scene.h"
 #include "testbench/command_line/guard.h"
 #include "testbench/streaminggs/report/provenance.h"
+#include "testbench/streaminggs/run/second_eye.h"
 
 namespace sgs {
 
 namespace {
 
-PointInWords in_words(const SceneArguments& scene, const ConfigSource& config) {
-  return {scene.scene,   scene.cameras_path, scene.view,         scene.size,
-          config.config, config.overrides,   config.fit_memories};
+PointInWords in_words(const SceneArguments& scene, const std::string& stereo,
+                      const ConfigSource& config) {
+  return {scene.scene, scene.cameras_path, scene.view,       scene.size,
+          stereo,      config.config,      config.overrides, config.fit_memories};
 }
 
 const std::string& either(const std::string& said, const std::string& otherwise) {
@@ -157,6 +159,7 @@ std::vector<SceneArguments> SweepPlan::scenes_of(const SweepPoint& point) const 
 
 std::vector<std::string> SweepPlan::check_scenes() {
   std::vector<std::string> notes;
+  eyes_apart(defaults_.stereo);
   for (const SceneArguments& scene : defaults_.scenes) {
     const auto& said = scene_of(scene).cameras(defaults_.view, defaults_.size).notes;
     notes.insert(notes.end(), said.begin(), said.end());
@@ -166,6 +169,7 @@ std::vector<std::string> SweepPlan::check_scenes() {
 
 RunConfig SweepPlan::resolved(const SweepTask& task) const {
   RunConfig config = read_run_config(task.config, kinds_);
+  draw_eyes(config, task.camera.eyes_apart);
   config.design->fit_frames([&] {
     return std::vector<PixelSize>{{task.camera.width, task.camera.height}};
   });
@@ -204,25 +208,28 @@ std::vector<SweepTask> SweepPlan::tasks_of(const SweepPoint& point) {
                  point.fit_memories.value_or(defaults_.config.fit_memories)};
   base.config.overrides.insert(base.config.overrides.end(), point.overrides.begin(),
                                point.overrides.end());
+  const std::string& stereo = either(point.stereo, defaults_.stereo);
   const auto refused = [&](const SceneArguments& scene, const std::string& why) {
     SweepTask task = base;
-    task.words = in_words(scene, base.config);
+    task.words = in_words(scene, stereo, base.config);
     task.refused = why;
     return task;
   };
   if (!point.refused.empty()) return {refused({}, point.refused)};
   std::vector<SweepTask> tasks;
   try {
+    const double apart = eyes_apart(stereo);
     for (const SceneArguments& arguments : scenes_of(point)) {
       try {
         SweepScene& scene = scene_of(arguments);
         for (const auto& [view, camera] : scene.cameras(arguments.view, arguments.size).views) {
           SweepTask task = base;
-          task.words = in_words(arguments, base.config);
+          task.words = in_words(arguments, stereo, base.config);
           task.words.view = std::to_string(view);
           task.scene = &scene;
           task.view = view;
           task.camera = camera;
+          task.camera.eyes_apart = apart;
           resolve_and_name(task);
           tasks.push_back(std::move(task));
         }

@@ -89,7 +89,7 @@ struct SweepTask {
 struct SweepDefaults {
   SceneArguments any_scene;  // all but its name, cameras, view and size
   std::vector<SceneArguments> scenes;
-  std::string view, size;
+  std::string view, size, stereo;
   ConfigSource config;
   std::uint64_t technology_hash = 0;  // hash of the table's file
 };
@@ -98,7 +98,8 @@ class SweepPlan {
  public:
   SweepPlan(SweepDefaults defaults, const Kinds& kinds);
 
-  // Throws InputError where a scene of the command line, its cameras or its views are not there.
+  // Throws InputError where a scene of the command line, its cameras or its views are not there, or
+  // --stereo is none.
   // Returns remarks about their pictures.
   std::vector<std::string> check_scenes();
 

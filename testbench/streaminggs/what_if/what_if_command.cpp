@@ -25,6 +25,7 @@
 #include "testbench/streaminggs/run/prepared_scene.h"
 #include "testbench/streaminggs/run/progress.h"
 #include "testbench/streaminggs/run/scene_arguments.h"
+#include "testbench/streaminggs/run/second_eye.h"
 #include "testbench/streaminggs/what_if/what_if.h"
 
 namespace sgs {
@@ -35,7 +36,8 @@ using Json = nlohmann::ordered_json;
 struct WhatIfArguments : SceneArguments {
   ConfigSource config;
   std::string technology = data_file("technology_32nm.json");
-  std::string out;  // JSON; empty: the terminal alone
+  std::string out;     // JSON; empty: the terminal alone
+  std::string stereo;  // "ipd=DISTANCE"; empty: one eye
 };
 
 // A scene, and a machine for it.
@@ -45,6 +47,7 @@ struct Base {
   PreparedScene scene;
   Technology technology;
   const Kinds* kinds = nullptr;
+  double eyes_apart = 0;
 
   // The configuration with one value changed; empty: as it is. What is derived follows anew, and
   // memories become as large as that takes. Throws InputError where it cannot be.
@@ -53,6 +56,7 @@ struct Base {
     changed.add_text(document, "the configuration");
     if (!assignment.empty()) changed.add_override(assignment);
     RunConfig config = read_run_config(changed, *kinds);
+    draw_eyes(config, eyes_apart);
     fit_memories(config);
     resolve(config);
     adapt(config, scene.stored.image.layout.second_half);
@@ -67,14 +71,22 @@ GoldenFrame golden_of(const Base& base, const RunConfig& config, const FrameJob&
   return config.design->golden(base.scene.stored, job, sheet);
 }
 
+// Frame buffers of the left or only eye, and of the right one, which may be missing.
+using Buffers = std::pair<std::vector<std::byte>, std::vector<std::byte>>;
+
+Buffers buffers_of(const FrameJob& job, const GoldenFrame& golden) {
+  return {encode_frame(job.frame_format, golden.image),
+          encode_frame(job.frame_format, golden.right)};
+}
+
 // One frame of a variant. golden: the picture of the machine as it is. Few keys make another one
 // (of paper order the rays in flight, which break ties): the variant's own is drawn for these only.
 FrameResult run(const Base& base, const RunConfig& config, const Camera& camera,
-                const std::vector<std::byte>& golden, const std::string& what) {
+                const Buffers& golden, const std::string& what) {
   const FrameJob job = config.design->job(base.scene.stored, camera);
   FrameResult frame = run_frame(*config.design, job, base.scene.stored.image, config.dram, {});
-  if (frame.frame != golden &&
-      frame.frame != encode_frame(job.frame_format, golden_of(base, config, job).image)) {
+  const Buffers drawn{frame.frame, frame.right_frame};
+  if (drawn != golden && drawn != buffers_of(job, golden_of(base, config, job))) {
     throw std::runtime_error(what + ": the frame differs from the streaming renderer's");
   }
   return frame;
@@ -167,7 +179,7 @@ Json run_view(const Base& base, int number, const Camera& camera) {
   const RunConfig config = base.variant("");
   const FrameJob job = config.design->job(base.scene.stored, camera);
   const GoldenFrame drawn = golden_of(base, config, job);
-  const std::vector<std::byte> golden = encode_frame(job.frame_format, drawn.image);
+  const Buffers golden = buffers_of(job, drawn);
   const FrameResult frame = run(base, config, camera, golden, "nothing doubled");
   Outcome outcome = outcome_of(frame, base.technology);
   if (drawn.contributing == 0) {
@@ -207,7 +219,9 @@ int run(const WhatIfArguments& arguments, const Kinds& kinds) {
   Base base;
   base.kinds = &kinds;
   if (!arguments.out.empty()) check_output_name(arguments.out, ".json");
+  base.eyes_apart = eyes_apart(arguments.stereo);
   RunConfig config = read_run_config(arguments.config, kinds);
+  draw_eyes(config, base.eyes_apart);
   const std::string replaced = sizes_to_replace(config, arguments.config.preset_in_words());
   if (!replaced.empty()) fmt::print("{}\n", replaced);
   std::optional<PackedScene> packed = arguments.load_packed();
@@ -220,7 +234,8 @@ int run(const WhatIfArguments& arguments, const Kinds& kinds) {
   base.technology = load_technology(arguments.technology);
   Scene scene;
   if (!packed) scene = arguments.load();
-  const auto views = arguments.cameras(scene.cameras);
+  auto views = arguments.cameras(scene.cameras);
+  for (auto& [number, camera] : views) camera.eyes_apart = base.eyes_apart;
   if (!arguments.out.empty()) {
     OutputPlan plan;
     arguments.add_inputs_to(plan);
@@ -242,6 +257,7 @@ int run(const WhatIfArguments& arguments, const Kinds& kinds) {
   if (!doubt.empty()) fmt::print(stderr, "streaminggs: note: {}\n", doubt);
   base.resolved = to_json(config);
   RunConfig decided = as_decided(arguments.config.document(), config);
+  draw_eyes(decided, base.eyes_apart);
   base.document = to_json(decided);
   Json report = Json::array();
   for (const auto& [number, camera] : views) report.push_back(run_view(base, number, camera));
@@ -260,6 +276,7 @@ SubCommand add_what_if_command(CommandLine& line, const Kinds& kinds) {
   auto arguments = std::make_shared<WhatIfArguments>();
   arguments->add_scene_to(line);
   arguments->add_views_to(line);
+  add_stereo_to(line, arguments->stereo);
   arguments->add_weighing_to(line);
   arguments->add_cache_to(line);
   arguments->config.config = kinds.front().name;

@@ -41,7 +41,8 @@ TEST_CASE("sweep points: a list has words, JSON, comments and empty lines") {
       "points",
       "# which\n\n  a=1  b=x#1 # why\r\n"
       "{\"id\": {\"n\": 1}, \"set\": {\"a.b\": [1, 2], \"c\": \"t#\", \"d\": true}, \"view\": 3,"
-      " \"size\": \"4x4\", \"scene\": \"s.ply\", \"cameras\": \"c.json\", \"config\": \"paper\","
+      " \"size\": \"4x4\", \"stereo\": \"ipd=1\", \"scene\": \"s.ply\", \"cameras\": \"c.json\", "
+      "\"config\": \"paper\","
       " \"fit_memories\": true}");
   const std::vector<SweepPoint> points = read_points(path);
   REQUIRE(points.size() == 2);
@@ -50,6 +51,7 @@ TEST_CASE("sweep points: a list has words, JSON, comments and empty lines") {
   CHECK(points[1].id == "{\"n\":1}");
   CHECK(points[1].view == "3");
   CHECK(points[1].size == "4x4");
+  CHECK(points[1].stereo == "ipd=1");
   CHECK(points[1].scene == "s.ply");
   CHECK(points[1].cameras == "c.json");
   CHECK(points[1].config == "paper");

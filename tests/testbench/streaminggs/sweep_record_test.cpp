@@ -12,9 +12,9 @@ namespace {
 
 TEST_CASE("sweep record: in short it says which point, and why it has no report") {
   const std::vector<std::pair<PointInWords, std::string>> cases = {
-      {{"truck.ply", "", "", "", "exact", {}}, "truck.ply exact"},
-      {{"truck.ply", "truck.json", "3", "64x48", "paper", {"hfus=2", "dram.memspec=ddr"}},
-       "truck.ply view 3 64x48 paper hfus=2 dram.memspec=ddr"}};
+      {{"truck.ply", "", "", "", "", "exact", {}}, "truck.ply exact"},
+      {{"truck.ply", "truck.json", "3", "64x48", "ipd=1", "paper", {"hfus=2", "dram.memspec=ddr"}},
+       "truck.ply view 3 64x48 --stereo ipd=1 paper hfus=2 dram.memspec=ddr"}};
   for (const auto& [point, said] : cases) {
     CHECK(in_short(line_of_refused("k", point, "too few")) == said + ": too few");
     CHECK(in_short(line_of_failed("k", point, "killed", 2)) == said + ": killed");
