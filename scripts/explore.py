@@ -16,9 +16,9 @@ ones; --machine adds the axes of an order's machine (exploring/axes.py) and begi
 machine, a tile-centric one (gscore) as well. Every exploration begins at the machine that `simulate`
 runs: what memories decide there (groups, lists) stays for every configuration, and each gets as much
 on-chip memory as it needs (--fit-memories), but for codebooks. Where --set, --axis or the list size a
-memory, that size stands, and decides. Tables show what was simulated: values as the
-resolved configuration has them, the size of the pixel group always among them: `group=SHAPE` stands
-for both of its sides.
+memory, that size stands, and decides. With --stereo a frame is a picture for each eye. Tables show
+what was simulated: values as the resolved configuration has them, the size of the pixel group always
+among them: `group=SHAPE` stands for both of its sides.
 
 Area is asked before a view is drawn: a configuration that is larger than what is required is drawn
 on none; --search steps draws such ones on its way down from a preset that holds all else. Views
@@ -32,9 +32,10 @@ Writes explore.csv, a line for each configuration, explore.json, what its column
 it, and exploration.svg and .png, whose axes are what was required; filter_units.svg
 and .png where CFUs and FFU lanes are all that differs. For one objective explore_best.json is the
 best as a configuration, explore_best_SCENE.json where scenes have their own; the last line has the
-command that simulates it. Where no configuration holds what is required, the exit status is 3, and
-the last line says which bounds are missed and by how much the nearest one misses. Of what was
-interrupted or failed midway there are explore_partial.csv and .json.
+command that simulates it. Where min(fps) is required, the best's watts at that rate are told. Where
+no configuration holds what is required, the exit status is 3, and the last line says which bounds
+are missed and by how much the nearest one misses. Of what was interrupted or failed midway there
+are explore_partial.csv and .json.
 
 With --study the trials of a search or grid are kept by name in --storage, a file, or a database of
 postgresql:// in which any number of workers on any number of machines take part, each started by
@@ -61,13 +62,13 @@ from exploring.axes import (
     Space,
     key_of,
     label,
-    of_scene,
     parse_axes,
     read_points,
     sizes_memory,
 )
 from exploring.judging import SMALL, SMALL_SIZE, Judge, Task, relative_to
-from exploring.measures import AREA_BAND, NAMES, Objective, objective, requirement, shown
+from exploring.measures import Objective, objective, requirement, shown
+from exploring.of_best import area_band, power_at_rate
 from exploring.record import Record, Work
 from exploring.steps import Steps
 from runs import run_arguments
@@ -92,14 +93,29 @@ def machine_axes(
     options.check_machine(order, config, arguments.config)
     own = (*order.fixed, *expanded(arguments.set))
     # Of a run of its own, since what is swept keeps no schedules.
-    run = Run(SMALL, size=SMALL_SIZE, config=arguments.config, overrides=own)
+    run = dataclasses.replace(
+        small_run(arguments), overrides=own, fit_memories=not sizes_memory(own)
+    )
     (view,) = simulate(kept.binary, run).accepted()
     return order.with_blend(view["datapath"][order.blend]["used"]["macs"]).axes, order.fixed
 
 
+def open_memories(config: dict) -> Assignments:
+    return tuple(f"sram.{key}=0" for key in config["sram"] if key != "codebook_bytes")
+
+
+def small_run(arguments: argparse.Namespace) -> Run:
+    return Run(SMALL, size=SMALL_SIZE, config=arguments.config, stereo=arguments.stereo)
+
+
 def config_of(arguments: argparse.Namespace, kept: SweepServer) -> dict:
-    """What --config names, with all keys that its machine has."""
-    return read_config(kept.binary, Run(SMALL, size=SMALL_SIZE, config=arguments.config))
+    """What --config names, with all keys that its machine has. Of two eyes its memories are left
+    open, since those for one may be too small."""
+    run = small_run(arguments)
+    if arguments.stereo:
+        fitted = read_config(kept.binary, dataclasses.replace(run, fit_memories=True))
+        run = dataclasses.replace(run, overrides=open_memories(fitted))
+    return read_config(kept.binary, run)
 
 
 def find_space(arguments: argparse.Namespace, axes: Sequence[Axis], scopes: Sequence[str]) -> Space:
@@ -168,7 +184,8 @@ def find_task(
         objectives=objectives_of(arguments.objectives or default_objectives(config)),
         requirements=tuple(map(requirement, arguments.require)),
         shown=shown(arguments.show),
-        open_memories=tuple(f"sram.{key}=0" for key in config["sram"] if key != "codebook_bytes"),
+        open_memories=open_memories(config),
+        stereo=arguments.stereo,
     )
 
 
@@ -180,12 +197,14 @@ def with_decided(task: Task, binary: pathlib.Path, view: str, config: dict) -> T
     left_open = {key_of(each) for each in task.base if each.endswith("=0")}
 
     def decided_for(scene: Scene) -> Assignments:
-        begin = Run(scene, view, task.size, task.config, task.base, fit_memories=True)
+        begin = Run(scene, view, task.size, task.config, task.base, True, task.stereo)
         told = numbers(read_config(binary, begin)).items()
         return tuple(
             f"{key}={value}"
             for key, value in told
-            if value and (key in left_open or value_at(config, key) == 0)
+            if value
+            and not key.startswith("sram.")
+            and (key in left_open or value_at(config, key) == 0)
         )
 
     scenes = dict.fromkeys(scene for scene, _ in task.views)
@@ -218,26 +237,6 @@ def explore_all(work: Work) -> None:
         work.made.add_last(work.made.judged[point])
 
 
-def area_band(work: Work) -> str:
-    """What the area of the best may be, by what is known of it; empty where nobody asked for area,
-    or for its band."""
-    task, best = work.judge.task, work.made.best()
-    asked = [*(o.measure for o in task.objectives), *(r.measure for r in task.requirements)]
-    if not best or NAMES["mm2"] not in (measure.path for measure in (*asked, *task.shown)):
-        return ""
-    own = of_scene(best.assignments, label(task.views[0][0].name))
-    views = work.judge.machine(own)
-    band = value_at(views[0], AREA_BAND) if views else None
-    if not band:
-        return ""
-    with_phy = value_at(views[0], "area_mm2.with_memory_interface")
-    return (
-        f"mm2 of the best: {band['low']:.2f} to {band['high']:.2f} by its sources; "
-        f"{with_phy['middle']:.2f} ({with_phy['low']:.2f} to {with_phy['high']:.2f}) with PHY and "
-        "controller of the memory."
-    )
-
-
 def path_of_best(arguments: argparse.Namespace, scene: str) -> pathlib.Path:
     """scene: what tells its name apart, as best_configurations() has it."""
     return arguments.out / f"explore_best{scene}.json"
@@ -247,7 +246,8 @@ def run_of_best(work: Work, scene: str) -> str:
     """The command that simulates the best on the first view that it is for."""
     task = work.judge.task
     of, view = next(v for v in task.views if scene in ("", f"_{v[0].name}"))
-    run = Run(of, str(view), task.size, str(path_of_best(work.arguments, scene)))
+    path = str(path_of_best(work.arguments, scene))
+    run = Run(of, str(view), task.size, path, stereo=task.stereo)
     return shlex.join(["streaminggs", "simulate", *run.arguments()])
 
 
@@ -299,7 +299,7 @@ def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Seque
     if not work.made.told():
         why = work.made.not_told() or ["there was no time for any configuration (--minutes)"]
         raise ValueError(why[0].removeprefix("Refused: "))
-    work.made.remarks.append(area_band(work))
+    work.made.remarks += [area_band(work), power_at_rate(work)]
     work.made.write(arguments.out, "explore", arguments.streaminggs)
     for earlier in arguments.out.glob("explore_best*.json"):
         earlier.unlink()

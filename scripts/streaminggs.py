@@ -90,6 +90,7 @@ def run(
     config: str | pathlib.Path = "exact",
     settings: Settings | None = None,
     fit_memories: bool = False,
+    stereo: str = "",
     out: str | pathlib.Path | None = None,
     program: str | pathlib.Path = BINARY,
 ) -> list[dict]:
@@ -98,8 +99,8 @@ def run(
     scene: builtin:NAME?n=COUNT, a real scene of ../shared by name, or a file or folder of any form
     that the command reads, with `cameras`, or with NAME.json beside it. view: a number, "0,2" or
     "all". size: "WxH". settings: keys of the configuration over those of `config`. fit_memories: as
-    the option, on-chip memories as large as all else needs. out: a folder that keeps pictures and
-    reports.
+    the option, on-chip memories as large as all else needs. stereo: "ipd=DISTANCE" as the option, a
+    second eye beside each camera. out: a folder that keeps pictures and reports.
 
     Raises ValueError for what the command refuses, Failure where a simulation ends badly or a frame
     is not the model's.
@@ -109,7 +110,7 @@ def run(
     else:
         found = find_scene(str(scene))
     own = assignments(settings or {})
-    job = simulations.Run(found, str(view), size, str(config), own, fit_memories)
+    job = simulations.Run(found, str(view), size, str(config), own, fit_memories, stereo)
     if out is None:
         outcome = simulations.simulate(pathlib.Path(program), job)
     else:
@@ -150,6 +151,7 @@ def sweep(
     config: str | pathlib.Path = "exact",
     settings: Settings | None = None,
     fit_memories: bool = False,
+    stereo: str = "",
     jobs: int = os.cpu_count() or 1,
     results: str | pathlib.Path | None = None,
     more: Sequence[str] = (),
@@ -161,7 +163,7 @@ def sweep(
     python3-pandas), else a list of dictionaries with these columns.
 
     points: settings over `settings`, which are over those of `config`; scenes, views, size,
-    fit_memories: as run() has them. cameras: of all scenes that are files or folders. jobs:
+    fit_memories, stereo: as run() has them. cameras: of all scenes that are files or folders. jobs:
     simulations side by side. results: a file of JSON lines, which keeps what was simulated and of
     which nothing is simulated again; without it nothing is kept.
 
@@ -175,7 +177,7 @@ def sweep(
     binary = pathlib.Path(program)
     found = find_scenes([str(scene) for scene in scenes], [str(cameras)] if cameras else [])
     cases = [
-        (point, simulations.Run(scene, str(view), size, str(config), own, fit_memories))
+        (point, simulations.Run(scene, str(view), size, str(config), own, fit_memories, stereo))
         for scene in found
         for point in points
         for own in [assignments(settings or {}) + assignments(point)]

@@ -71,7 +71,7 @@ class Judged:
 class Task:
     """What a configuration is judged by. base: what all of them have set, which a configuration
     may set anew; so it may what the beginning's memories decided, by label of a scene, and "" for
-    the first one's machine. open_memories: settings that size none."""
+    the first one's machine. open_memories: settings that size none. stereo: as the option."""
 
     views: tuple[View, ...]
     keys: tuple[str, ...]  # of the settings to be shown
@@ -83,14 +83,15 @@ class Task:
     shown: tuple[Measure, ...] = ()  # that nothing is judged by
     decided: Mapping[str, Assignments] = dataclasses.field(default_factory=dict)
     open_memories: Assignments = ()
+    stereo: str = ""
 
     def run(self, scene: Scene, view: int, assignments: Assignments) -> Run:
         own = of_scene(assignments, label(scene.name))
-        run = Run(scene, str(view), self.size, self.config)
+        run = Run(scene, str(view), self.size, self.config, stereo=self.stereo)
         return self.with_memories(run, self.decided.get(label(scene.name), ()), own)
 
     def small_run(self, assignments: Assignments) -> Run:
-        run = Run(SMALL, "0", SMALL_SIZE, self.config)
+        run = Run(SMALL, "0", SMALL_SIZE, self.config, stereo=self.stereo)
         return self.with_memories(run, self.decided.get("", ()), assignments)
 
     def with_memories(self, run: Run, decided: Assignments, own: Assignments) -> Run:
@@ -122,7 +123,9 @@ def relative_to(task: Task, simulate: Simulate) -> Task:
     def resolved(required: Requirement) -> Requirement:
         if not required.reference:
             return required
-        runs = [Run(s, str(n), task.size, required.reference) for s, n in task.views]
+        # The memories of a preset are for one eye.
+        eyes = {"fit_memories": bool(task.stereo), "stereo": task.stereo}
+        runs = [Run(s, str(n), task.size, required.reference, **eyes) for s, n in task.views]
         drawn = zip(task.views, simulate(runs))
         return required.relative_to([named(o.accepted()[0], scene) for (scene, _), o in drawn])
 
@@ -179,9 +182,19 @@ class Judge:
 
     def draw(self, assignments: Assignments, views: Sequence[View]) -> Drawn:
         """Views side by side, and all of them."""
+        return self.draw_each([assignments], views)[0]
+
+    def draw_each(
+        self, configurations: Sequence[Assignments], views: Sequence[View]
+    ) -> list[Drawn]:
+        """The same of several configurations, all of them side by side."""
+        runs = [self.task.run(*view, each) for each in configurations for view in views]
+        outcomes = iter(self.simulate(runs))
+        return [self.drawn(views, [next(outcomes) for _ in views]) for _ in configurations]
+
+    def drawn(self, views: Sequence[View], outcomes: Sequence[Outcome]) -> Drawn:
         found: list[dict] = []
-        runs = [self.task.run(scene, number, assignments) for scene, number in views]
-        for (scene, number), outcome in zip(views, self.simulate(runs)):
+        for (scene, number), outcome in zip(views, outcomes):
             if outcome.failure:
                 return Drawn(failed=str(outcome.failure))
             if outcome.refused:

@@ -280,6 +280,11 @@ class Requirement:
         """Whether it holds for several views where it holds for each of them."""
         return self.measure.aggregate == ("min" if self.least else "max")
 
+    def is_a_rate(self) -> bool:
+        """Whether it asks of every view so many frames a second, one at least."""
+        asked = (self.measure.aggregate, self.measure.path)
+        return asked == ("min", NAMES["fps"]) and self.least and self.bound >= 1
+
     def is_lost(self, views: Views) -> bool:
         """Whether no further view can mend it; of each scene's mean all views are there."""
         one_way = ("min", EACH) if self.least else ("max", "sum", EACH)

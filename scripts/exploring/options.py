@@ -56,6 +56,12 @@ def parser(about: str | None) -> run_arguments.Parser:
     parser.add_argument("--view", default="0", help="numbers of cameras, as in 0,2, or all")
     parser.add_argument("--size", default="", metavar="WxH", help="in px; default: the camera's")
     parser.add_argument(
+        "--stereo",
+        default="",
+        metavar="ipd=DISTANCE",
+        help="a second eye beside each camera, in world units: a frame is two pictures",
+    )
+    parser.add_argument(
         "--config",
         default="",
         help="preset or JSON file to start from; default: --machine's preset, else exact",

@@ -310,6 +310,7 @@ def described(work: Work, program: str) -> str:
         "configurations": "proposed" if work.arguments.search else "all",
         "views": [[scene.name, number] for scene, number in task.views],
         "size": task.size,
+        "stereo": task.stereo,
         "config": task.config,
         "base": list(task.base),
         "objectives": [o.name for o in task.objectives],

@@ -2,8 +2,10 @@
 
 Where any frame tells the objective (area), resources are taken away a step at a time, that step
 first which frees most for the room that it costs under what is required, on the hardest view. A
-step after which that is missed is not tried again. When none is left every view is drawn; one that
-misses what is required becomes a hardest view beside the first, and it begins again.
+step after which that is missed is not tried again. When none is left the other views are drawn,
+those with least room first, until one misses what is required: that becomes a hardest view beside
+the first, and it begins again. Where time is over before, the smallest that holds on all views is
+looked for among those on the way down.
 
 Where frames tell it (cycles), the search tries each setting of the first axis, then moves along one
 axis at a time. What is required of the machine is a budget: what takes more is paid for by steps
@@ -21,6 +23,7 @@ smallest, a search draws those between a preset that holds all else and what is 
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 from collections.abc import Iterator, Sequence
 
@@ -34,7 +37,7 @@ BETTER = 0.001  # of the objective's logarithm, to be taken for a gain
 FREED = 0.003  # of the budget, to be taken where nothing is lost
 UNKNOWN_HARM = 0.02
 GIVEN_UP = 0.06  # worse on the views drawn, over their number: others may still make up for it
-AT_ONCE = 2  # views side by side
+AT_ONCE = 2  # frames side by side
 PATIENCE = 2  # settings in a row that are no better, of what is chosen for one scene
 FINALISTS = 3
 
@@ -64,6 +67,7 @@ class Steps:
         self.harm: dict[int, float] = {}
         self.seen: set[At] = set()
         self.points: list[Point] = []
+        self.hardest_first = list(self.task.views)  # views
 
     def search(self) -> None:
         """Into work.made. Raises ValueError where the preset is refused."""
@@ -77,18 +81,25 @@ class Steps:
                 return
             self.best(start)
         except NoTime:
-            pass
+            if self.task.of_the_machine():
+                self.smallest_on_all()
+                return
         self.draw_finalists()
 
     # Drawing.
 
     def draw(self, at: At, views: Sequence[View]) -> Drawn:
         """Raises NoTime."""
+        if not self.may_draw(at):
+            raise NoTime
+        return self.judge.draw(self.space.assignments(at), views)
+
+    def may_draw(self, at: At) -> bool:
         if at not in self.looked:
             if not self.work.has_time() or len(self.looked) >= self.work.most():
-                raise NoTime
+                return False
             self.looked[at] = 0
-        return self.judge.draw(self.space.assignments(at), views)
+        return True
 
     def tell(self, at: At, drawn: Drawn, views: Sequence[dict]) -> None:
         """What was seen of it."""
@@ -117,16 +128,28 @@ class Steps:
         return drawn.views
 
     def look_until_missed(self, at: At, watched: Sequence[View]) -> tuple[dict, ...]:
-        """Views one after the other to the first that misses what is required by itself; none where
-        one is refused."""
-        views: tuple[dict, ...] = ()
-        for some in ([view] for view in watched) if self.single else [watched]:
-            drawn = self.draw(at, some)
-            views = drawn.views and (*views, *drawn.views)
-            self.tell(at, drawn, views)
-            if not views or self.room(views) < 0:
+        """Views one after the other, or AT_ONCE, to the first that misses what is required by
+        itself; none where one is refused."""
+        return self.look_at_each([at], watched)[at]
+
+    def look_at_each(self, ats: Sequence[At], watched: Sequence[View]) -> dict[At, tuple]:
+        """The same of several, side by side, up to the first that there is no time for. Raises
+        NoTime where that is the first of all."""
+        left = list(itertools.takewhile(self.may_draw, ats))
+        if not left:
+            raise NoTime
+        found: dict[At, tuple] = dict.fromkeys(left, ())
+        at_once = max(1, AT_ONCE // len(left)) if self.single else len(watched)
+        for first in range(0, len(watched), at_once):
+            configurations = [self.space.assignments(at) for at in left]
+            some = watched[first : first + at_once]
+            for at, drawn in zip(left, self.judge.draw_each(configurations, some)):
+                found[at] = drawn.views and (*found[at], *drawn.views)
+                self.tell(at, drawn, found[at])
+            left = [at for at in left if found[at] and self.room(found[at]) >= 0]
+            if not left:
                 break
-        return views
+        return found
 
     def hardest(self, views: Sequence[dict], watched: Sequence[View]) -> list[View]:
         """The view with least room; all that are watched where they are judged together only."""
@@ -140,7 +163,12 @@ class Steps:
 
     def smallest(self, at: At) -> None:
         start, watched = at, []
-        while views := self.look(at, self.task.views):
+        views = self.look(at, self.task.views)
+        if self.single:
+            views = sorted(views, key=lambda view: self.room([view]))
+            places = {(scene.name, n): (scene, n) for scene, n in self.task.views}
+            self.hardest_first = [places[v["scene_name"], v["view"]] for v in views]
+        while views:
             hardest = self.hardest(views, self.task.views)
             if watched and (self.room(views) >= 0 or set(hardest) <= set(watched)):
                 return
@@ -148,6 +176,21 @@ class Steps:
             if not (start := self.grown(start, watched)):
                 return
             at = self.shrunk(start, watched)
+            views = self.look_until_missed(at, self.hardest_first)
+
+    def smallest_on_all(self) -> None:
+        """Of those that hold on the views watched, from the smallest on, each time twice as far,
+        until one holds on all."""
+        ranked = sorted({point.at for point in self.points}, key=self.machines.size)
+        at, step = 0, 1
+        while at < len(ranked):
+            best = self.work.made.best()
+            if best and best.costs[0] <= self.machines.size(ranked[at]):
+                return
+            views = self.look_until_missed(ranked[at], self.hardest_first)
+            if views and self.room(views) >= 0:
+                return
+            at, step = at + step, 2 * step
 
     def grown(self, at: At, watched: Sequence[View]) -> At | None:
         """With more of what gains room on the hardest view, until there is enough; None where that
@@ -179,9 +222,12 @@ class Steps:
         }
         key = worst["binding"].get("key", "")
         for tried in ([key] if key in ahead else [], [name for name in ahead if name != key]):
-            worth = {}
+            worth, found = {}, {}
+            for first in range(0, len(tried), AT_ONCE):
+                some = tried[first : first + AT_ONCE]
+                found |= self.look_at_each([ahead[name] for name in some], hardest)
             for name in tried:
-                further = self.look(ahead[name], hardest)
+                further = found.get(ahead[name])
                 gain = self.room(further) - room if further else 0
                 if gain >= LEAST_GAIN:
                     worth[name] = gain / max(
@@ -205,18 +251,30 @@ class Steps:
         # Freed for the room lost, by axis, as last seen: it is looked at again before a step.
         worth = {which: math.inf for which in range(len(at))}
         while worth:
-            which = max(worth, key=lambda w: worth[w])
-            back = self.machines.back(at, which, self.machines.size)
-            views = self.look_until_missed(back[0], watched) if back and back[1] > 0 else ()
-            left = self.room(views) if views else -math.inf
-            if left < 0:
-                del worth[which]
-                continue
-            now = back[1] / max(room - left, 1e-4)
-            if now >= max((w for other, w in worth.items() if other != which), default=0):
-                at, room = back[0], left
-                self.points.append(Point(at, views))
-            worth[which] = now
+            backs: dict[int, tuple[At, float]] = {}
+            for which in sorted(worth, key=lambda w: -worth[w]):
+                back = self.machines.back(at, which, self.machines.size)
+                if back and back[1] > 0:
+                    backs[which] = back
+                else:
+                    del worth[which]
+                if len(backs) == AT_ONCE:
+                    break
+            found = self.look_at_each([to for to, _ in backs.values()], watched) if backs else {}
+            held: dict[int, Point] = {}
+            for which, (to, freed) in backs.items():
+                if to not in found:
+                    continue
+                left = self.room(found[to]) if found[to] else -math.inf
+                if left < 0:
+                    del worth[which]
+                    continue
+                held[which] = Point(to, found[to])
+                worth[which] = freed / max(room - left, 1e-4)
+            which = max(held, key=lambda w: worth[w], default=None)
+            if which is not None and worth[which] >= max(worth.values()):
+                at, room = held[which].at, self.room(held[which].views)
+                self.points.append(held[which])
         return at
 
     # What does best within what is allowed.

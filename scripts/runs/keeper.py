@@ -357,6 +357,7 @@ def point_of(run: Run) -> dict:
     point = {"scene": run.scene.spec, "view": run.view, "config": run.config}
     point |= {"cameras": run.scene.cameras} if run.scene.cameras else {}
     point |= {"size": run.size} if run.size else {}
+    point |= {"stereo": run.stereo} if run.stereo else {}
     point |= {"fit_memories": True} if run.fit_memories else {}
     settings = (override.split("=", 1) for override in run.overrides)
     return {**point, "set": {key: json_value(text) for key, text in settings}}

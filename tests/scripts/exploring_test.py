@@ -210,6 +210,45 @@ class Exploring(Explorations):
         self.explore("finish()", "--axis", "hfus=2,4", "--objectives", "cycles,mm2")
         self.assertEqual(list(self.folder.glob("explore_best*")), [])
 
+    def test_watts_of_the_best_at_the_rate_that_is_required(self):
+        body = """
+            finish()
+            path = pathlib.Path(sys.argv[sys.argv.index("--out") + 1]) / "report.json"
+            report = json.loads(path.read_text())
+            view = report["views"][0]
+            view["energy"] = {"total_j": 1 / view["frame"]["cycles"], "memory_known": KNOWN}
+            if "--frame-rate" in sys.argv:
+                rate = float(sys.argv[sys.argv.index("--frame-rate") + 1])
+                watts = {"power_w": band(2 * rate), "with_memory_interface_w": band(3 * rate)}
+                view["fixed_rates"] = [{"held": True, **watts}]
+            path.write_text(json.dumps(report))
+            """
+        told = "W of the best at 3 frames a second, truck 0: 6.000 (5.000 to 7.000); "
+        told += "9.000 (8.000 to 10.000) with PHY and controller of the memory."
+        words = ("--axis", "hfus=2,4", "--objectives", "mm2", "--require")
+        for required, known, said in (
+            ("min(fps) >= 3", True, True),
+            ("min(fps) >= 3", False, False),
+            ("mean(fps) >= 3", True, False),
+        ):
+            with self.subTest(required, known=known):
+                done = self.explore(body.replace("KNOWN", str(known)), *words, required)
+                self.assertEqual((done.returncode, told in done.stdout), (0, said), done.stderr)
+
+    def test_frames_of_one_eye_and_of_two_are_kept_apart(self):
+        body = """
+            with (HERE / "count").open("a") as file:
+                print(*sys.argv[sys.argv.index("--stereo"):][:2] if "--stereo" in sys.argv else "",
+                      file=file)
+            finish()
+            """
+        for eyes in ((), ("--stereo", "ipd=1"), ("--stereo", "ipd=2"), ("--stereo", "ipd=1"), ()):
+            done = self.explore(body, "--axis", "hfus=2", *eyes)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(" ".join(eyes) in done.stdout.splitlines()[-1], True)
+        drawn = (self.folder / "count").read_text()
+        self.assertEqual(drawn, "\n--stereo ipd=1\n--stereo ipd=2\n")
+
     def test_what_is_beside_has_its_name(self):
         for text, name in (
             ("by hand: hfus=8", "by hand"),

@@ -124,7 +124,8 @@ class InFolder(unittest.TestCase):
             def swept(point):
                 with tempfile.TemporaryDirectory() as out:
                     words = [__file__, "simulate", "--view", str(point["view"]), "--out", out]
-                    words += ["--size", point["size"]] if "size" in point else []
+                    for name in ("size", "stereo"):
+                        words += [f"--{{name}}", point[name]] if name in point else []
                     words += ["--fit-memories"] if point.get("fit_memories") else []
                     for key, value in point["set"].items():
                         words += ["--set", f"{{key}}={{value}}"]
