@@ -127,10 +127,11 @@ class Running(InFolder):
         points = streaminggs.grid(axes)
         results, config = self.folder / "sweep.jsonl", self.folder / "mine.json"
         config.write_text('{"machine": "exact"}')
-        more = {"fit_memories": True, "config": config}
+        more = {"fit_memories": True, "config": config, "stereo": "ipd=0.1"}
         rows = self.sweep(points, results=results, **more)
         for point, row in zip(points, rows, strict=True):
-            (view,) = self.run_one(settings=point, fit_memories=True, config=config)
+            (view,) = self.run_one(settings=point, **more)
+            self.assertEqual(view["camera"]["eyes_apart"], 0.1)
             told = streaminggs.numbers(view)
             for path in ("frame.cycles", "dram.bytes", "area_mm2.total", "energy.total_j"):
                 self.assertEqual(row[path], told[path])
