@@ -247,7 +247,8 @@ class Steps:
 
     def shrunk(self, at: At, watched: Sequence[View]) -> At:
         """No step back holds what is required on the views watched."""
-        room = self.room(self.look_until_missed(at, watched))
+        self.points.append(Point(at, self.look_until_missed(at, watched)))
+        room = self.room(self.points[-1].views)
         # Freed for the room lost, by axis, as last seen: it is looked at again before a step.
         worth = {which: math.inf for which in range(len(at))}
         while worth:
