@@ -10,6 +10,7 @@ namespace sgs {
 struct MemoryExtension : tlm::tlm_extension<MemoryExtension> {
   std::uint8_t requester = 0;  // which unit; the numbering is the accelerator's
   std::uint8_t region = 0;     // which region of the memory image
+  bool urgent = false;         // a memory may serve it before what is not
   std::uint64_t tag = 0;       // the initiator's own note; interconnect and targets leave it alone
 
   tlm_extension_base* clone() const override { return new MemoryExtension(*this); }

@@ -107,6 +107,7 @@ MemoryPort::Ticket MemoryPort::start(tlm::tlm_command command, std::uint64_t add
     payload.set_data_length(length);
     payload.set_streaming_width(length);
     payload.memory().region = region;
+    payload.memory().urgent = config_.urgent;
     payload.memory().tag = ticket;
     if (command == tlm::TLM_WRITE_COMMAND) {
       payload.set_data_ptr(payload.buffer(length));

@@ -36,6 +36,9 @@ struct MemoryPortConfig {
   // Width of the path in each direction: a transaction takes it for as many cycles as it has words.
   // No key: the memories behind a port are as wide.
   std::uint32_t width_bytes = kPortBytes;
+  // Its requests are marked as urgent. No key: so is the port of a unit that comes to harm by a
+  // late answer.
+  bool urgent = false;
 };
 
 // Its keys, for a visitor as modules/config has.

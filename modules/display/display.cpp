@@ -10,6 +10,13 @@ constexpr const char *kMemory = "display", *kRows = "rows shown";
 
 sc_core::sc_time never() { return sc_core::sc_max_time(); }
 
+// A row that comes late is of no use.
+MemoryPortConfig port_config() {
+  MemoryPortConfig config;
+  config.urgent = true;
+  return config;
+}
+
 sc_core::sc_time period_of(double rate) {
   return rate > 0 ? sc_core::sc_time(1 / rate, sc_core::SC_SEC) : sc_core::SC_ZERO_TIME;
 }
@@ -19,7 +26,7 @@ sc_core::sc_time period_of(double rate) {
 Display::Display(const sc_core::sc_module_name& name, const FrameJob& job, double rate,
                  const sc_core::sc_time& cycle)
     : sc_module(name),
-      memory("memory", MemoryPortConfig{}, cycle),
+      memory("memory", port_config(), cycle),
       job_(job),
       period_(period_of(rate)),
       cycle_(cycle),

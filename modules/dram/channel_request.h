@@ -15,6 +15,7 @@ struct ChannelRequest {
   std::uint32_t row = 0;
   std::uint32_t burst = 0;   // first burst in the row
   std::uint32_t bursts = 1;  // how many, contiguous
+  bool urgent = false;       // goes before all that are not
   bool masked = false;       // a write that leaves some bytes of its bursts as they are
   void* owner = nullptr;     // handed back with the completion
 };

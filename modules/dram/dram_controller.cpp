@@ -88,6 +88,7 @@ DramController::Transaction& DramController::new_transaction(int initiator,
   t.initiator = initiator;
   t.direction = payload.is_read() ? Direction::kRead : Direction::kWrite;
   t.region = memory ? memory->region : std::uint8_t{0};
+  t.urgent = memory && memory->urgent && payload.is_read();
   t.masked = payload.get_byte_enable_ptr() != nullptr;
   t.begin = payload.get_address();
   t.next = t.begin & ~std::uint64_t{mapping_.burst_bytes() - 1};
@@ -107,6 +108,7 @@ ChannelRequest DramController::next_request(Transaction& t, std::uint32_t& chann
   ChannelRequest request;
   request.direction = t.direction;
   request.region = t.region;
+  request.urgent = t.urgent;
   request.rank = place.rank;
   request.bank = place.bank;
   request.row = place.row;
@@ -181,7 +183,7 @@ bool DramController::feed(Transaction& t, std::uint64_t cycle) {
     const ChannelRequest request = next_request(t, index);
     Channel& channel = channels_[index];
     channel.queued.advance(cycle);
-    if (channel.queued.full(t.direction)) {
+    if (channel.queued.full(request)) {
       t.next = before;
       Initiator& from = initiators_[static_cast<std::size_t>(t.initiator)];
       from.feeding = &t;

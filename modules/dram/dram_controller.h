@@ -76,6 +76,7 @@ class DramController : public sc_core::sc_module, public CommandSource {
     Direction direction = Direction::kRead;
     std::uint8_t region = 0;
     std::uint64_t arrival = 0;    // cycle
+    bool urgent = false;          // a read that goes first
     bool masked = false;          // byte enables leave some bytes as they are
     std::uint64_t begin = 0;      // address of its first byte
     std::uint64_t next = 0;       // address from which requests are still to be queued

@@ -27,8 +27,8 @@ QueuedChannel::QueuedChannel(const DramConfig& config, const Memspec& memspec, s
               config.ranks),
       scheduling_(make_scheduling_policy(config)),
       paging_(make_page_policy(config, config.ranks * memspec.organisation.banks)),
-      reads_(config.read_queue_entries, config.ranks * memspec.organisation.banks),
-      writes_(config.write_queue_entries, config.ranks * memspec.organisation.banks),
+      reads_(config.read_queue_entries, kUrgentEntries, config.ranks * memspec.organisation.banks),
+      writes_(config.write_queue_entries, 0, config.ranks * memspec.organisation.banks),
       bus_(memspec.command_bus),
       rank_requests_(config.ranks),
       waiting_(std::size_t{config.ranks} * memspec.organisation.banks),
@@ -131,6 +131,7 @@ bool QueuedChannel::aged(const RequestQueue& queue) const {
 Direction QueuedChannel::wanted_direction() const {
   if (writes_.empty()) return Direction::kRead;
   if (writes_due_ > 0) return Direction::kWrite;
+  if (reads_.has_urgent()) return Direction::kRead;
   if (reads_.empty()) return Direction::kWrite;
   if (direction_ == Direction::kWrite)
     return writes_.size() > low_watermark_ || aged(writes_) ? Direction::kWrite : Direction::kRead;
@@ -161,7 +162,7 @@ void QueuedChannel::adopt(const Choice& choice) {
   best_entry_ = RequestQueue::kNone;
   if (choice.cycle_and_kind == kNoChoice) return;
   const Work& work = works(considered_)[choice.flat_bank];
-  best_ = {choice.cycle_and_kind >> 1, command_of(work.command), work.rank, work.bank};
+  best_ = {choice.cycle_and_kind >> 2, command_of(work.command), work.rank, work.bank};
   best_entry_ = work.entry;
 }
 
@@ -180,8 +181,11 @@ void QueuedChannel::revise_best(const ChannelRequest& added, std::uint32_t bank)
 QueuedChannel::Work QueuedChannel::work_of(const RequestQueue& queue, std::uint32_t bank) const {
   Work work;
   if ((queue.banks_in_use() >> bank & 1) == 0) return work;
-  work.settled = scheduling_->settled(queue, bank);
-  work.entry = scheduling_->choose(queue, bank, clock_);
+  work.entry = queue.oldest_urgent(bank);
+  if (work.entry == RequestQueue::kNone) {
+    work.settled = scheduling_->settled(queue, bank);
+    work.entry = scheduling_->choose(queue, bank, clock_);
+  }
   if (work.entry == RequestQueue::kNone) return work;
   const RequestQueue::Entry& entry = queue.entry(work.entry);
   const ChannelRequest& request = entry.request;
@@ -195,6 +199,7 @@ QueuedChannel::Work QueuedChannel::work_of(const RequestQueue& queue, std::uint3
     work.wasted_within = bus_.shape(Command::kActivate).lead +
                          device_.derived().activate_to_column(request.direction);
   work.column = open_row == request.row;
+  work.urgent = request.urgent;
   work.rank = request.rank;
   work.bank = request.bank;
   work.ready = entry.ready;
@@ -222,7 +227,8 @@ QueuedChannel::Choice QueuedChannel::best_of(std::uint64_t banks, Choice best) {
         (work.entry != RequestQueue::kNone) &
         (cycle + work.wasted_within < maintenance_[work.rank].request_limit(work.bank));
     // One comparison of packed numbers: which bank wins is too random for a branch each.
-    const std::uint64_t key = possible ? cycle << 1 | (work.column ? 0u : 1u) : kNoChoice;
+    const std::uint64_t kind = (work.urgent ? 0U : 2U) | (work.column ? 0U : 1U);
+    const std::uint64_t key = possible ? cycle << 2 | kind : kNoChoice;
     const bool better =
         (key < best.cycle_and_kind) | ((key == best.cycle_and_kind) & (work.order < best.order));
     best.cycle_and_kind = better ? key : best.cycle_and_kind;

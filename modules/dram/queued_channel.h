@@ -3,8 +3,8 @@
 // It knows no SystemC and no clock ticks. Between two arrivals its course is fixed, so it is worked
 // out only when somebody looks: advance(c) takes all decisions that fall before cycle c. All
 // arrivals of a cycle are therefore known to that cycle's decision, in whatever order they came.
-// The command that can begin first goes first, at equal cycles columns before row commands, older
-// requests before younger.
+// The command that can begin first goes first, at equal cycles those of urgent requests before all
+// others, columns before row commands, older requests before younger.
 #pragma once
 
 #include <array>
@@ -26,12 +26,16 @@
 
 namespace sgs {
 
+// Entries of a channel's read queue for urgent reads alone, which find room whoever else waits:
+// what a port has in flight lies on all channels.
+constexpr std::uint32_t kUrgentEntries = 4;
+
 class QueuedChannel {
  public:
   QueuedChannel(const DramConfig& config, const Memspec& memspec, std::uint8_t channel,
                 CommandSink& sink);
 
-  bool full(Direction direction) const { return queue(direction).full(); }
+  bool full(const ChannelRequest& request) const { return queue(request.direction).full(request); }
   bool empty() const { return reads_.empty() && writes_.empty(); }
 
   // Takes a request that arrives at `cycle`; all before it must have been advanced to. Not when
@@ -67,6 +71,7 @@ class QueuedChannel {
     RequestCommand command = RequestCommand::kActivate;
     bool settled = true;
     bool column = false;
+    bool urgent = false;
     std::uint32_t rank = 0;
     std::uint32_t bank = 0;           // within the rank
     std::uint32_t wasted_within = 0;  // cycles before a refresh in which the command is of no use
@@ -75,9 +80,10 @@ class QueuedChannel {
   };
 
   // A command and the request that it is for. Less is better: the earlier first cycle, at equal
-  // ones a column before a row command, then the older request.
+  // ones an urgent request, then a column before a row command, then the older request.
   struct Choice {
-    std::uint64_t cycle_and_kind = ~std::uint64_t{0};  // cycle * 2, plus 1 when no column
+    // cycle * 4, plus 2 when not urgent, plus 1 when no column
+    std::uint64_t cycle_and_kind = ~std::uint64_t{0};
     std::uint64_t order = 0;
     std::uint32_t flat_bank = 0;
   };

@@ -25,14 +25,20 @@ class RequestQueue {
     std::int32_t previous = kNone;
   };
 
-  // `banks`: of all ranks together, at most 64 (the width of the mask).
-  RequestQueue(std::uint32_t entries, std::uint32_t banks) : entries_(entries), banks_(banks) {
-    for (std::uint32_t i = entries; i-- > 0;) free_.push_back(static_cast<std::int32_t>(i));
+  // urgent_entries: beside `entries`, of urgent requests alone. `banks`: of all ranks together, at
+  // most 64 (the width of the mask).
+  RequestQueue(std::uint32_t entries, std::uint32_t urgent_entries, std::uint32_t banks)
+      : urgent_entries_(urgent_entries), entries_(entries + urgent_entries), banks_(banks) {
+    for (std::size_t i = entries_.size(); i-- > 0;) free_.push_back(static_cast<std::int32_t>(i));
   }
 
   std::size_t size() const { return entries_.size() - free_.size(); }
   bool empty() const { return size() == 0; }
-  bool full() const { return free_.empty(); }
+  bool has_urgent() const { return urgent_ > 0; }
+  bool full(const ChannelRequest& request) const {
+    const std::size_t free_urgent = urgent_entries_ - urgent_;
+    return request.urgent ? free_urgent == 0 : free_.size() == free_urgent;
+  }
   std::uint64_t banks_in_use() const { return in_use_; }  // bit b: bank b has requests
 
   Entry& entry(std::int32_t index) { return entries_[static_cast<std::size_t>(index)]; }
@@ -40,11 +46,12 @@ class RequestQueue {
   std::int32_t oldest(std::uint32_t bank) const { return banks_[bank].head; }
   // The oldest request for the bank's open row, kNone without.
   std::int32_t oldest_hit(std::uint32_t bank) const { return banks_[bank].hit; }
+  std::int32_t oldest_urgent(std::uint32_t bank) const { return banks_[bank].urgent; }
 
   // Arrival order of the oldest request of all; the queue is not empty.
   std::uint64_t oldest_order() const;
 
-  // Adds a request of `bank` (counted over ranks), whose open row is given. Not when full.
+  // Adds a request of `bank` (counted over ranks), whose open row is given. Not when full for it.
   void push(const Entry& entry, std::uint32_t bank, std::uint32_t open_row);
   void remove(std::int32_t index, std::uint32_t bank);
   void on_row(std::uint32_t bank, std::uint32_t open_row);  // a row was opened, or kNoRow: closed
@@ -62,6 +69,7 @@ class RequestQueue {
     std::int32_t head = kNone;
     std::int32_t tail = kNone;
     std::int32_t hit = kNone;
+    std::int32_t urgent = kNone;
   };
 
   std::int32_t first_of_row(std::int32_t from, std::uint32_t row) const {
@@ -69,6 +77,13 @@ class RequestQueue {
     return from;
   }
 
+  std::int32_t first_urgent(std::int32_t from) const {
+    while (from != kNone && !entry(from).request.urgent) from = entry(from).next;
+    return from;
+  }
+
+  const std::uint32_t urgent_entries_;
+  std::uint32_t urgent_ = 0;  // requests
   std::vector<Entry> entries_;
   std::vector<std::int32_t> free_;
   std::vector<Bank> banks_;
@@ -89,6 +104,8 @@ inline void RequestQueue::push(const Entry& added, std::uint32_t bank, std::uint
     entry(b.tail).next = index;
   b.tail = index;
   if (b.hit == kNone && e.request.row == open_row) b.hit = index;
+  if (b.urgent == kNone && e.request.urgent) b.urgent = index;
+  urgent_ += e.request.urgent ? 1 : 0;
   in_use_ |= std::uint64_t{1} << bank;
 }
 
@@ -96,6 +113,8 @@ inline void RequestQueue::remove(std::int32_t index, std::uint32_t bank) {
   Bank& b = banks_[bank];
   const Entry& e = entry(index);
   if (b.hit == index) b.hit = first_of_row(e.next, e.request.row);
+  if (b.urgent == index) b.urgent = first_urgent(e.next);
+  urgent_ -= e.request.urgent ? 1 : 0;
   if (e.previous == kNone)
     b.head = e.next;
   else

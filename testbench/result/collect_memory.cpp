@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "modules/dram/queued_channel.h"
+
 namespace sgs {
 
 namespace {
@@ -19,9 +21,14 @@ class Paths : public DataSheet {
     passed += moved;
     registers += bits * config.path_cycles;
     registered += moved * config.path_cycles;
+    if (!config.urgent) return;
+    urgent = true;
+    urgent_requests += static_cast<double>(port.transactions());
   }
   double wide = 0, passed = 0;           // bits of all ports, and through them
   double registers = 0, registered = 0;  // the same of the stages
+  double urgent_requests = 0;
+  bool urgent = false;  // a port
 };
 
 RegionTraffic& entry(std::vector<RegionTraffic>& traffic, const std::string& region,
@@ -70,6 +77,15 @@ void add_memory_path(const Publisher& all, std::uint32_t channels, MachineResult
   all(paths);
   if (paths.wide == 0) return;
   OwnerResult owner{kComponent, {}, {}};
+  if (paths.urgent) {
+    constexpr double kEntryBits = 64;  // as in a port's table
+    const double bits = channels * kUrgentEntries * kEntryBits;
+    const double used = kEntryBits * paths.urgent_requests;
+    paths.registers += bits;
+    paths.registered += used;
+    owner.parts.push_back({kComponent, "select_bit", bits, bits});
+    result.operations.push_back({kComponent, "select_bit", used});
+  }
   if (paths.registers > 0) {
     owner.parts.push_back({kComponent, "register_bit", paths.registers, paths.registers});
     result.operations.push_back({kComponent, "register_bit", paths.registered});

@@ -15,8 +15,9 @@ namespace sgs {
 // The path between a machine's memory ports and the channels' controllers, paid by the machine.
 
 // Adds parts and operations of component "memory_path": for each port and direction the registers
-// of the path, and for each channel a multiplexer, a bit each; what passed them. The parts' owner
-// has the component's name.
+// of the path, and for each channel a multiplexer, a bit each; what passed them. With an urgent port
+// besides each channel's entries for urgent reads, and a way out of them. The parts' owner has the
+// component's name.
 void add_memory_path(const Publisher& all, std::uint32_t channels, MachineResult& result);
 
 // requesters: by number.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "testbench/cost/technology.h"
 #include "tests/support/shared_inputs.h"
 #include "tests/system/frame_checks.h"
 #include "tests/system/report_values.h"
@@ -208,6 +209,15 @@ TEST_CASE("stream: two frames at a time are paid for") {
     CHECK(area(view, "display") > 0);
     CHECK(area(view, "memory_path") > area(alone.views()[0], "memory_path"));
   }
+  // The display's port has 256 bits each way, a register each and the multiplexers of four
+  // channels; each channel has four entries of 64 bits for its reads.
+  const Technology technology = load_technology(SGS_TECHNOLOGY);
+  const auto mm2 = [&](const char* kind) { return technology.mm2(kind).middle; };
+  const double port = 2 * 256 * (mm2("register_bit") + 4 * mm2("crossbar_bit"));
+  const double entries = 4 * 4 * 64 * (mm2("register_bit") + mm2("select_bit"));
+  const PathRun unshown = stream_of({"--config", "gscore_lossless"});
+  CHECK(area(one.all(), "memory_path") - area(unshown.all(), "memory_path") ==
+        Approx(port + entries));
   const auto bytes_of_use = [](const PathRun& run, const std::string& name) {
     std::uint64_t bytes = 0;
     const Json view = run.all();
@@ -315,8 +325,20 @@ TEST_CASE("stream: its rate is told as held or missed, and late poses gain what 
   CHECK(std::count(held.table.begin(), held.table.end(), '\n') == kFrames + 1);
 }
 
+TEST_CASE(
+    "stream: rows come to the display in time, though the machine asks for all of a channel") {
+  for (const char* config : {"exact", "gscore_lossless", "paper_no_vq"}) {
+    INFO(config);
+    const PathRun run = stream_of(with_settings({"--config", config}, {"dram.channels=1"}), kTight);
+    check_stream(run);
+    CHECK(run.stream()["missed_frames"] == kFrames);
+    CHECK(run.stream()["rows_late"] == 0);
+  }
+}
+
 TEST_CASE("stream: gscore blends ahead, and waits for its buffer as it drains") {
-  const PathRun run = stream_of({"--config", "gscore_lossless"}, kTight);
+  // A frame takes a little longer than a picture.
+  const PathRun run = stream_of({"--config", "gscore_lossless"}, "24000");
   CHECK(run.stream()["missed_frames"] > 0);
   double drains = 0, others = 0;
   const Json view = run.all();

@@ -1,7 +1,8 @@
 // One channel's controller and its rank cycle by cycle: queues of reads and writes, and in each
-// cycle the first command that is legal, a refresh that is wanted before all, columns before row
-// commands, older requests before younger. Open rows, no aging. Rules of time by pairs of commands,
-// as JESD209-3 names them; they count from a command's last cycle on the command bus.
+// cycle the first command that is legal, a refresh that is wanted before all, urgent requests
+// before others, columns before row commands, older requests before younger. Open rows, no aging.
+// Rules of time by pairs of commands, as JESD209-3 names them; they count from a command's last
+// cycle on the command bus.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include "modules/dram/channel_request.h"
@@ -21,7 +23,8 @@ namespace sgs::test {
 struct ChannelHardware {
   std::uint32_t front_end = 8;  // cycles from arrival to the first command
   std::size_t read_entries = 32, write_entries = 32, high_watermark = 24, low_watermark = 8;
-  bool hits_first = true;  // of a bank's requests those of its open row go first
+  std::size_t urgent_entries = 4;  // beside the others'
+  bool hits_first = true;          // of a bank's requests those of its open row go first
   RefreshHardware refresh;
 };
 
@@ -43,9 +46,10 @@ class ClockedChannel {
         groups_(memspec.organisation.bank_groups),
         refresh_(hardware.refresh, memspec) {}
 
-  bool full(Direction d) const {
-    return d == Direction::kRead ? reads_.size() == hw_.read_entries
-                                 : writes_.size() == hw_.write_entries;
+  bool full(const ChannelRequest& request) const {
+    if (request.direction == Direction::kWrite) return writes_.size() == hw_.write_entries;
+    return request.urgent ? urgent_reads() == hw_.urgent_entries
+                          : reads_.size() - urgent_reads() == hw_.read_entries;
   }
   bool empty() const { return reads_.empty() && writes_.empty(); }
   void push(const ChannelRequest& request) {
@@ -81,7 +85,7 @@ class ClockedChannel {
     std::optional<std::uint64_t> activated, read, written;  // last
   };
   struct Choice {
-    bool column;
+    bool urgent, column;
     std::uint64_t order;
     std::size_t at;  // in its queue
     Command command;
@@ -140,11 +144,17 @@ class ClockedChannel {
     return cycles_of(command).back();
   }
 
+  std::size_t urgent_reads() const {
+    const auto is_urgent = [](const Entry& entry) { return entry.request.urgent; };
+    return static_cast<std::size_t>(std::count_if(reads_.begin(), reads_.end(), is_urgent));
+  }
+
   Queue& queue(Direction d) { return d == Direction::kRead ? reads_ : writes_; }
 
   Direction wanted_direction() const {
     if (writes_.empty()) return Direction::kRead;
     if (reads_.empty()) return Direction::kWrite;
+    if (urgent_reads() > 0) return Direction::kRead;
     const std::size_t enough =
         direction_ == Direction::kWrite ? hw_.low_watermark + 1 : hw_.high_watermark;
     return writes_.size() >= enough ? Direction::kWrite : Direction::kRead;
@@ -154,16 +164,18 @@ class ClockedChannel {
   void consider(Direction wanted, std::uint32_t bank, std::optional<Choice>& best) {
     const Queue& requests = queue(wanted);
     const Bank& b = banks_[bank];
-    std::optional<std::size_t> oldest, hit;
+    std::optional<std::size_t> oldest, hit, urgent;
     for (std::size_t i = requests.size(); i-- > 0;) {
       if (requests[i].request.bank != bank) continue;
       oldest = i;
       if (requests[i].request.row == b.row) hit = i;
+      if (requests[i].request.urgent) urgent = i;
     }
-    if (!oldest || (!hw_.hits_first && *oldest != 0)) return;
-    const std::size_t at = hw_.hits_first && hit ? *hit : *oldest;
+    if (!oldest || (!hw_.hits_first && *oldest != 0 && !urgent)) return;
+    const std::size_t at = urgent ? *urgent : hw_.hits_first && hit ? *hit : *oldest;
     const Entry& entry = requests[at];
-    Choice choice{entry.request.row == b.row, entry.order, at, Command::kActivate};
+    Choice choice{entry.request.urgent, entry.request.row == b.row, entry.order, at,
+                  Command::kActivate};
     if (choice.column) {
       choice.command = wanted == Direction::kRead ? Command::kRead : Command::kWrite;
     } else if (b.row != kNoRow) {
@@ -176,9 +188,8 @@ class ClockedChannel {
     const std::uint32_t to_column = static_cast<std::uint32_t>(last - now_) +
                                     (wanted == Direction::kWrite ? rcd_write() : t_.rcd);
     if (choice.command == Command::kActivate && refresh_.will_hold(bank, to_column)) return;
-    const bool better = !best || (choice.column && !best->column) ||
-                        (choice.column == best->column && choice.order < best->order);
-    if (better) best = choice;
+    const auto rank = [](const Choice& c) { return std::tuple(!c.urgent, !c.column, c.order); };
+    if (!best || rank(choice) < rank(*best)) best = choice;
   }
 
   std::uint32_t rcd_write() const { return t_.rcd_write > 0 ? t_.rcd_write : t_.rcd; }

@@ -23,6 +23,7 @@ struct DramWorkload {
   ChannelHardware hardware = {};
   bool groups = false;  // bank groups, and what else only some standards have
   Memspec::CommandBus command_bus = {};
+  std::uint32_t urgent_percent = 0;  // of reads
 };
 
 DramConfig config_of(const ChannelHardware& hw) {
@@ -48,6 +49,7 @@ std::vector<ChannelRequest> requests_of(const DramWorkload& load, const Memspec&
   for (ChannelRequest& r : requests) {
     const bool write = random() % 100 < load.writes_percent;
     r.direction = write ? Direction::kWrite : Direction::kRead;
+    r.urgent = !write && random() % 100 < load.urgent_percent;
     r.bank = static_cast<std::uint32_t>(random() % load.banks);
     r.row = 2 * static_cast<std::uint32_t>(random() % load.rows) + (write ? 1 : 0);
     r.bursts = 1 + static_cast<std::uint32_t>(random() % load.longest);
@@ -94,7 +96,7 @@ void compare(const DramWorkload& load) {
     for (std::size_t i = 0; i < requests.size(); ++i) {
       cycle += gaps[i];
       channel.advance(cycle);
-      while (channel.full(requests[i].direction)) {
+      while (channel.full(requests[i])) {
         channel.advance(cycle = channel.next_decision() + 1);
       }
       channel.push(requests[i], cycle);
@@ -103,7 +105,7 @@ void compare(const DramWorkload& load) {
     std::size_t next = 0;
     std::uint64_t due = gaps[0], now = 0;
     for (; next < requests.size() || !clocked.empty(); ++now) {
-      if (next < requests.size() && now >= due && !clocked.full(requests[next].direction)) {
+      if (next < requests.size() && now >= due && !clocked.full(requests[next])) {
         clocked.push(requests[next++]);
         if (next < requests.size()) due = now + gaps[next];
       }
@@ -151,6 +153,29 @@ TEST_CASE("clocked reference: DRAM commands") {
            DramWorkload{"bank groups, random rows", 8, 1000, 2, 30, 1, {}, true},
            DramWorkload{"bank groups, few rows", 8, 2, 8, 30, 1, {}, true},
            DramWorkload{"bank groups, writes only", 8, 8, 4, 100, 1, {}, true},
+       }) {
+    compare(load);
+  }
+}
+
+TEST_CASE("clocked reference: DRAM commands with urgent reads") {
+  ChannelHardware in_order, tiny, any;
+  in_order.hits_first = false;
+  tiny.read_entries = tiny.write_entries = 2;
+  tiny.high_watermark = 2;
+  tiny.low_watermark = 0;
+  any.refresh = {RefreshMode::kPerBank, 8, true};
+  const Memspec::CommandBus lpddr4{4, 0, 4, 2, 1}, hbm{2, 0, 1, 1, 2};
+  for (const DramWorkload& load : {
+           DramWorkload{"a tenth, light", 8, 64, 4, 30, 200, {}, false, {}, 10},
+           DramWorkload{"a tenth, random rows", 8, 1000, 2, 30, 1, {}, false, {}, 10},
+           DramWorkload{"a tenth, few rows", 8, 2, 8, 30, 1, {}, false, {}, 10},
+           DramWorkload{"a tenth, one bank", 1, 4, 4, 50, 1, {}, false, {}, 10},
+           DramWorkload{"a half, first come", 8, 64, 4, 30, 1, in_order, false, {}, 50},
+           DramWorkload{"a half, tiny queues", 8, 64, 4, 50, 1, tiny, false, {}, 50},
+           DramWorkload{"all, any bank refreshed", 8, 64, 4, 30, 1, any, false, {}, 100},
+           DramWorkload{"a half, 4, 4, 2 cycles", 8, 1000, 2, 30, 1, any, false, lpddr4, 50},
+           DramWorkload{"a half, bank groups, two buses", 8, 2, 8, 30, 1, {}, true, hbm, 50},
        }) {
     compare(load);
   }

@@ -306,7 +306,7 @@ TEST_CASE("energy: a sequential and a random stream equal the hand calculation t
       r.bank = static_cast<std::uint32_t>(sequential ? i / 128 % 8 : state >> 61);
       r.row = static_cast<std::uint32_t>(sequential ? i / 1024 : state >> 40 & 16383);
       r.burst = static_cast<std::uint32_t>(sequential ? i % 128 : 0);
-      while (channel.full(Direction::kRead)) channel.advance(cycle = channel.next_decision() + 1);
+      while (channel.full(r)) channel.advance(cycle = channel.next_decision() + 1);
       channel.push(r, cycle);
     }
     while (!channel.empty()) channel.advance(cycle = channel.next_decision() + 1);

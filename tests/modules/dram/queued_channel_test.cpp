@@ -102,12 +102,13 @@ TEST_CASE("scheduling: no read goes before an older write to the same bytes") {
     b.channel.advance(cycle);
     ChannelRequest r;
     r.direction = random() % 2 == 0 ? Direction::kRead : Direction::kWrite;
+    r.urgent = r.direction == Direction::kRead && random() % 4 == 0;
     r.bank = static_cast<std::uint32_t>(random() % 2);
     r.row = static_cast<std::uint32_t>(random() % 2);
     r.burst = static_cast<std::uint32_t>(random() % 6);
     r.bursts = 1 + static_cast<std::uint32_t>(random() % 3);
     r.masked = r.direction == Direction::kWrite && random() % 3 == 0;
-    if (b.channel.full(r.direction)) continue;
+    if (b.channel.full(r)) continue;
     b.channel.push(r, cycle);
     const bool answered = b.channel.forwarded_reads() > forwarded;
     forwarded = b.channel.forwarded_reads();

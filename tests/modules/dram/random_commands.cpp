@@ -23,6 +23,7 @@ class RequestSource {
     const Memspec::Organisation& o = memspec_.organisation;
     ChannelRequest r;
     r.direction = below(100) < writes_ ? Direction::kWrite : Direction::kRead;
+    r.urgent = r.direction == Direction::kRead && below(100) < urgent_;
     r.rank = below(ranks_);
     r.bank = below(banks_);
     r.row = below(rows_) * 7 % o.rows;
@@ -41,6 +42,7 @@ class RequestSource {
   void new_phase() {
     left_ = 50 + below(400);
     writes_ = below(4) * 33;
+    urgent_ = below(3) * 10;
     banks_ = below(2) == 0 ? memspec_.organisation.banks : 1 + below(2);
     rows_ = below(2) == 0 ? 2 : memspec_.organisation.rows;
     longest_ = below(2) == 0 ? 1 : 9;
@@ -51,7 +53,7 @@ class RequestSource {
   const Memspec& memspec_;
   const std::uint32_t ranks_;
   std::mt19937_64 random_;
-  std::uint32_t left_ = 0, writes_ = 0, banks_ = 1, rows_ = 1, longest_ = 1, gap_ = 0;
+  std::uint32_t left_ = 0, writes_ = 0, urgent_ = 0, banks_ = 1, rows_ = 1, longest_ = 1, gap_ = 0;
 };
 
 }  // namespace
@@ -69,7 +71,7 @@ RandomRun run_queued(const DramConfig& config, std::uint64_t commands, std::uint
     const ChannelRequest request = source.next(gap);
     cycle += gap;
     channel.advance(cycle);
-    while (channel.full(request.direction)) channel.advance(cycle = channel.next_decision() + 1);
+    while (channel.full(request)) channel.advance(cycle = channel.next_decision() + 1);
     channel.push(request, cycle);
     ++run.pushed;
     while (channel.take_completion(cycle, completion)) ++run.served;
