@@ -23,7 +23,6 @@ from runs.simulations import (
     decibels,
     numbers,
     pareto_front,
-    vsu_waits,
 )
 from tables import REQUIRED, SCENE, SIZE, VIEW, Column, Study, measure_of
 
@@ -40,7 +39,6 @@ CYCLES = Column("cycles", "of a frame", "cycles", ",.0f")
 FPS = Column("fps", "frames a second; of several views the slowest", "1/s", ".1f")
 JOULES = Column("joules", "of a frame", "J", ".4g")
 MM2 = Column("mm2", "area, where it is largest", "mm2", ".2f")
-WAITS = Column("VSU waits", "most of the frame that an activity of it waits for reads", "", ".1%")
 DECIBELS = (
     Column("least dB", "PSNR of the worst view; inf: equal", "dB", ".1f"),
     Column("most dB", "PSNR of the best view; inf: equal", "dB", ".1f"),
@@ -53,7 +51,6 @@ VIEWS = (
     Column("PSNR dB", "of the frame in 8 bits; inf: equal", "dB", ".2f"),
     Column("binds", "what holds the frame"),
     Column("key", "that would give it more"),
-    WAITS,
 )
 SCENES = (
     *(SIZE, SCENE, MACHINE, BUS),
@@ -61,7 +58,6 @@ SCENES = (
     Column("bus / asked", "bytes on the bus over those asked for", "", ".2f"),
     *(CYCLES, FPS, JOULES, MM2, *DECIBELS),
     Column("binds", "the busiest of the views, its share of the frame, and what holds it"),
-    WAITS,
 )
 SUMMARY = (
     *(Column("size px", SIZE.meaning, "px"), MACHINE, MM2),
@@ -71,7 +67,6 @@ SUMMARY = (
     Column("fps, worst view", "frames a second of the slowest view", "1/s", ".0f"),
     Column("PSNR dB, least", DECIBELS[0].meaning, "dB", ".1f"),
     Column("PSNR dB, most", DECIBELS[1].meaning, "dB", ".1f"),
-    Column("VSU waits for reads, most", WAITS.meaning, "", ".1%"),
     Column(f"faster than {BESIDE}, least", "its cycles over these, of all views", "", ".2f"),
     Column(f"faster than {BESIDE}, most", "its cycles over these, of all views", "", ".2f"),
 )
@@ -108,17 +103,17 @@ def view_row(size: str, scene: str, machine: str, view: dict) -> tuple:
         *(size, scene, machine, view["view"], dram["bus_bytes"], dram["bytes"]),
         *(view["limit"]["bytes_read_once"], frame["cycles"], frame["fps"]),
         *(view["energy"]["total_j"], view["area_mm2"]["total"], decibels(view)),
-        *(view["binding"]["holds"], view["binding"].get("key", ""), vsu_waits(view)),
+        *(view["binding"]["holds"], view["binding"].get("key", "")),
     )
 
 
 def scene_row(size: str, scene: str, machine: str, views: Sequence[dict], db: Sequence) -> tuple:
-    bus, asked, wasted, cycles, fps, joules, mm2, waits = numbers(views)
+    bus, asked, wasted, cycles, fps, joules, mm2 = numbers(views)
     # Once what a quantised scene holds would be another once.
     quantised = any(v["config"]["storage"]["encoding"].startswith("vq") for v in views)
     return (
         *(size, scene, machine, bus, None if quantised else asked, wasted, cycles, fps, joules),
-        *(mm2, min(db), max(db), binders(views), waits),
+        *(mm2, min(db), max(db), binders(views)),
     )
 
 
@@ -134,7 +129,7 @@ def summary_row(size: str, machine: str, of: Sequence, beside: Sequence, db: Seq
     return (
         *(size, machine, max(n[6] for n in found), bus / MB, cycles / 1e6, joules / MJ),
         min(n[4] for n in found),
-        *(min(db), max(db), max(n[7] for n in found)),
+        *(min(db), max(db)),
         *((min(faster), max(faster)) if faster else (None, None)),
     )
 
@@ -246,8 +241,8 @@ come first:
 Makes
 
   fair_fight_views    of each size, scene, machine and view
-  fair_fight_scenes   of each size, scene and machine: means over the views; the worst frame rate
-                      and waiting
+  fair_fight_scenes   of each size, scene and machine: means over the views; the worst
+                      frame rate
   fair_fight_summary  of each size and machine: geometric means over the scenes of these
   fair_fight_front    of all that was tried what no other one beats in picture,
                       bytes, time, energy and area, compared in steps of 5 % and 1 dB

@@ -546,14 +546,6 @@ class Reports(unittest.TestCase):
         self.assertEqual(simulations.region_bytes(self.VIEW, "codebooks"), 0)
         self.assertEqual(simulations.work(self.VIEW, "keys"), 7)
 
-    def test_the_worst_waiting_of_vsu(self):
-        def activity(reads):
-            return {"waited_cycles": {"reads": reads, "room": 90}}
-
-        vsu = {"activities": {"walk": activity(7), "hand_out": activity(3)}}
-        view = {"units": {"vsu": vsu}, "frame": {"cycles": 100}}
-        self.assertEqual(simulations.vsu_waits(view), 0.07)
-
     def test_a_share_stands_beside_the_resource_that_it_is_of(self):
         def view(unit, share, holds):
             return {"binding": {"unit": unit, "utilisation": share, "holds": holds}}
