@@ -44,7 +44,10 @@ std::uint32_t OrderingTable::rename(std::uint32_t voxel, bool first) {
   if (names_.taken(slot)) return names_.number(slot);
   const std::uint32_t number = voxel_count();
   voxels_.push_back({voxel, 0, kNone, 0});
-  if (!fits()) return kNone;
+  if (!fits()) {
+    voxels_.back().in_degree = kNone;  // never ready: there is no bit for it
+    return kNone;
+  }
   names_.take(slot, number);
   ++accesses_.names_written;
   write(number);

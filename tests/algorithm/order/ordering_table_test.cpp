@@ -60,6 +60,16 @@ TEST_CASE("ordering table: edges in lines take no room of it, and a voxel has so
   CHECK(table.added_edge());
   CHECK_FALSE(add_chain(table, {5}));  // a fifth voxel
 
+  // Full words of ready voxels: what finds no room has no bit.
+  Voxels all(ReadyVoxels::kWordBits);
+  std::iota(all.begin(), all.end(), 0);
+  OrderingTable words(100, 8 * all.size(), 1);
+  CHECK(add_chain(words, all));
+  CHECK_FALSE(add_chain(words, {99}));
+  words.clear();
+  CHECK(add_chain(words, {99, 1}));
+  CHECK(words.order() == Voxels{99, 1});
+
   OrderingTable wide(100, OrderingTable::kUnlimited, 1);
   for (std::uint32_t to = 1; to <= kMostAdjacencyLines; ++to) CHECK(add_chain(wide, {0, to}));
   CHECK_FALSE(add_chain(wide, {0, kMostAdjacencyLines + 1}));
