@@ -48,6 +48,18 @@ def turned(camera: Mapping, frames: int) -> dict:
     return {**camera, "id": frames, "rotation": rotation, "position": position}
 
 
+def first_camera(scene: Scene) -> dict:
+    """Raises ValueError where its cameras are no list of positions and rotations, OSError."""
+    cameras = read_json(pathlib.Path(scene.cameras)) if scene.cameras else None
+    first = cameras[0] if isinstance(cameras, list) and cameras else {}
+    if not isinstance(first, dict) or not {"position", "rotation"} <= first.keys():
+        raise ValueError(
+            f"{scene.cameras or scene.name}: got no list of cameras with position and rotation, "
+            "expected one, whose first moves"
+        )
+    return first
+
+
 def read_bursts(lines: Iterable[str]) -> tuple[list[Burst], int]:
     """Of a command trace: bursts read, in their order, and how many were moved either way."""
     rows: dict[tuple[str, str, str], str] = {}
@@ -100,9 +112,7 @@ def make(arguments: argparse.Namespace) -> None:
     scenes = find_scenes(arguments.scenes or list(SCENES), arguments.cameras)
     rows, views = [], []
     for scene in scenes:
-        if not scene.cameras:
-            raise ValueError(f"{scene.name}: got no file of cameras, expected one, whose first moves")
-        first = json.loads(pathlib.Path(scene.cameras).read_text())[0]
+        first = first_camera(scene)
         for preset in arguments.presets:
             frames = [drawn(arguments, scene, turned(first, apart), preset) for apart in APART]
             rows.append(row_of(scene.name, preset, frames))

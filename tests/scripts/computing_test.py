@@ -37,6 +37,16 @@ class StreamShares(unittest.TestCase):
         frames = [(bursts, view), (bursts[:1], view), ([], view)]
         self.assertEqual(stream_shares.row_of("s", "p", frames), ("s", "p", 2, 2, 0.5, 0))
 
+    def test_cameras_of_another_form_are_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "c.json")
+            for text in ('{"frames": []}', "[]", '[{"position": [0, 0, 0]}]', "[1]"):
+                path.write_text(text)
+                with self.assertRaisesRegex(ValueError, "c.json: got no list of cameras"):
+                    stream_shares.first_camera(Scene("s", "s.ply", str(path)))
+        with self.assertRaisesRegex(ValueError, "builtin: got no list"):
+            stream_shares.first_camera(Scene("builtin", "builtin:object"))
+
     def test_a_head_turns_and_moves_across(self):
         start = {"position": [1, 2, 3], "rotation": [[0, 0, 1], [0, 1, 0], [-1, 0, 0]]}
         moved = stream_shares.turned(start, 270)
