@@ -1,4 +1,4 @@
-// streaminggs convert SCENE --out OUT.ply, or SCENE OUT.ply
+// streaminggs convert SCENE --out OUT.ply, or SCENE OUT.ply, and the cameras that the scene brings
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -7,6 +7,7 @@
 
 #include "algorithm/files/input_error.h"
 #include "algorithm/files/output_file.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_writer.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/report/numbers.h"
@@ -17,6 +18,7 @@ namespace {
 
 struct ConvertArguments : SceneArguments {
   std::string out, second;  // by --out, or behind the scene
+  std::string cameras_out;
 };
 
 int run(const ConvertArguments& arguments) {
@@ -31,8 +33,17 @@ int run(const ConvertArguments& arguments) {
   OutputPlan plan;
   arguments.add_inputs_to(plan);
   plan.add_output(out);
+  if (!arguments.cameras_out.empty()) plan.add_output(arguments.cameras_out);
   plan.check();
   const Scene scene = arguments.load();
+  if (!arguments.cameras_out.empty()) {
+    if (scene.cameras.empty()) {
+      throw InputError(fmt::format(
+          "--cameras-out: got it with {}, which brings no cameras, expected a built-in scene",
+          arguments.scene));
+    }
+    write_cameras(arguments.cameras_out, scene.cameras);
+  }
   write_ply(out, scene.cloud, scene.notes);
   if (scene.dropped_invalid > 0) {
     fmt::print("dropped invalid: {} Gaussians\n", grouped(scene.dropped_invalid));
@@ -49,6 +60,8 @@ SubCommand add_convert_command(CommandLine& line, const Kinds& /*kinds*/) {
   arguments->add_scene_to(line, kUnpackedSceneForms);
   line.file("--out", arguments->out, "file to write: .ply as the original code writes it");
   line.file("OUT", arguments->second, "the same without --out");
+  line.file("--cameras-out", arguments->cameras_out,
+            "the cameras that a built-in scene brings, to be written as cameras.json");
   return [arguments] { return run(*arguments); };
 }
 

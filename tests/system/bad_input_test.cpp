@@ -217,6 +217,10 @@ TEST_CASE("bad input: numbers, keys and values that mean nothing") {
             "\"width\": 32, \"height\": 18, \"position\": [0, 0, -5], \"rotation\": [[1, 0, 0], "
             "[0, 1, 0], [0, 0, 1]], \"fx\": 30, \"fy\": 30}]' >d/cameras.json"},
            {"$SG convert $S a.txt", 2, {"a.txt, expected a name that ends in .ply"}},
+           {"$SG convert a.splat a.ply --cameras-out a.json",
+            2,
+            {"--cameras-out: got it with a.splat, which brings no cameras"},
+            "printf '%032d' 0 >a.splat"},
            {"$SG convert a.ply a.ply",
             2,
             {"a.ply: is the same file as the input a.ply"},

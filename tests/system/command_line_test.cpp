@@ -156,6 +156,9 @@ TEST_CASE("command line: options and their values") {
             "$SG info b.ply",
             {"b.ply: 2 Gaussians of SH degree 0, ", "gaussians                 2\n"},
             "for i in 1 2; do printf '========================RGBAwxyz' >>a.splat; done"},
+           {"$SG convert $S a.ply --cameras-out a.json && $SG render a.ply --cameras a.json --size "
+            "32x18 --out a.png && $SG render $B --out b.png && cmp a.png b.png && $SG info a.json",
+            {"a.ply: 300 Gaussians of SH degree 3, ", "cameras                   5\n"}},
            {"$SG convert a.ply b.ply 2>&1 && $SG info a.ply",
             {"streaminggs: note: a.ply: 1 element is skipped, since no picture needs it: extra\n",
              "\nnote                      1 element is skipped, since no picture needs it: "
