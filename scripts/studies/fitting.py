@@ -214,8 +214,7 @@ def boundary_row(case: BoundaryCase, fitted: Fitted) -> tuple:
 
 
 def add_boundary_arguments(to: run_arguments.Parser) -> None:
-    forms = f"{subjects.DATASET_FORMS}; {run_arguments.SCENE_FORMS}"
-    subjects.add_arguments(to, forms)
+    subjects.add_arguments(to)
     subjects.add_voxels(to, [1, 0.25])
     to.add_argument(
         "--betas", nargs="+", type=float, default=[0, 0.05, 0.5], metavar="X", help="of L_CBP"

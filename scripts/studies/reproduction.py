@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import tables
 from runs import run_arguments
 from runs.keeper import swept
-from runs.scenes import Scene, find_scene, find_scenes, shared_names
+from runs.scenes import Scene, find_scenes, shared_names
 from runs.simulations import (
     Run,
     cycles,
@@ -21,6 +21,7 @@ from runs.simulations import (
     mm2,
     read_config,
 )
+from studies import subjects
 from studies.cases import model_all
 from studies.claims import (
     REAL,
@@ -34,6 +35,8 @@ from studies.claims import (
     geometric,
     seconds,
 )
+from studies.quality import target_pictures
+from studies.subjects import Subject
 from tables import PRESET, PSNR, SCENE, SIZE, Column, Study
 
 TEXT, IDEAL, OTHER = "paper_text", "paper_ideal", "gscore"
@@ -218,8 +221,11 @@ def add_reproduction_arguments(to: run_arguments.Parser) -> None:
         *("--synthetic", "-s"),
         action="append",
         metavar="SCENE",
-        help=f"drawn at {SYNTHETIC.size}, in voxels of 0.4; default: {STAND_IN}",
+        help=f"scene, or data set to train, drawn at {SYNTHETIC.size}, in voxels of 0.4; default: "
+        f"{STAND_IN}",
     )
+    subjects.add_training_arguments(to)
+    subjects.add_seed(to)
     run_arguments.add_side_by_side(to)
     run_arguments.add_view(to)
     to.add_argument("--groups", nargs="+", default=list(GROUPS), metavar="PX", help="sides")
@@ -301,9 +307,22 @@ def measure(arguments: argparse.Namespace, of: Sequence[tuple[Kind, Run]], plan:
     ]
 
 
+def synthetic_scenes(arguments: argparse.Namespace) -> list[Scene]:
+    """Data sets are trained now, and drawn at their test views."""
+    sources = subjects.find_sources(arguments.synthetic or (STAND_IN,))
+    folders = [source for source in sources if not isinstance(source, Scene)]
+    kept = subjects.kept_fittings(arguments, side_by_side=1)
+    trained = iter(subjects.find_subjects(folders, arguments, kept))
+
+    def of_subject(subject: Subject) -> Scene:
+        return Scene(subject.name, subject.scene, target_pictures(arguments, subject).cameras)
+
+    return [s if isinstance(s, Scene) else of_subject(next(trained)) for s in sources]
+
+
 def make_reproduction(arguments: argparse.Namespace) -> None:
     real = find_scenes(arguments.scenes or shared_names(), arguments.cameras)
-    synthetic = [find_scene(name) for name in arguments.synthetic or (STAND_IN,)]
+    synthetic = synthetic_scenes(arguments)
     of = [
         (kind, Run(scene, arguments.view, kind.size))
         for kind, scenes in ((REAL, real), (SYNTHETIC, synthetic))

@@ -9,17 +9,16 @@ import argparse
 import dataclasses
 import pathlib
 from collections.abc import Sequence
+from typing import IO
 
 from runs import run_arguments
-from runs.keeper import Fitting, KeptFittings
+from runs.keeper import Fitting, Keeper, KeptFittings
 from runs.scenes import Scene, answered, find_scenes, shared_folder
 from runs.simulations import FIT_MEMORIES
 
 DEFAULT_SUBJECTS = ("lego", "desk", "truck", "platform", "yard")
 DATASET_FORMS = "a data set of ../shared by name, or the folder of one"
-SUBJECT_FORMS = (
-    f"{DATASET_FORMS}; a real scene of ../shared by name, or a file of any form that the command reads"
-)
+SUBJECT_FORMS = f"{DATASET_FORMS}; {run_arguments.SCENE_FORMS}"
 SCENE_IN_FOLDER = ("meta.json", "lod-meta.json")  # of SOG
 LOOKS = 20  # at the test views, while a scene is trained
 PAPER, PAPER_VQ = "paper_no_vq", "paper"
@@ -174,9 +173,13 @@ def add_training_arguments(to: argparse.ArgumentParser) -> None:
     )
 
 
-def add_arguments(to: run_arguments.Parser, forms: str = SUBJECT_FORMS) -> None:
-    """Of a study that tunes. forms: what its subjects may be."""
-    run_arguments.add_scenes(to, " ".join(DEFAULT_SUBJECTS), forms=forms)
+def add_seed(to: argparse.ArgumentParser) -> None:
+    to.add_argument("--seed", type=int, default=1, help="of the training of data sets")
+
+
+def add_arguments(to: run_arguments.Parser) -> None:
+    """Of a study that tunes."""
+    run_arguments.add_scenes(to, " ".join(DEFAULT_SUBJECTS), forms=SUBJECT_FORMS)
     run_arguments.add_fittings_side_by_side(to)
     to.add_argument("--size", default="640x360", metavar="WxH", help="in px, of scenes")
     to.add_argument(
@@ -187,7 +190,7 @@ def add_arguments(to: run_arguments.Parser, forms: str = SUBJECT_FORMS) -> None:
         help="cameras between those of a scene, to tune on; 0: test with every eighth of them",
     )
     add_training_arguments(to)
-    to.add_argument("--seed", type=int, default=1, help="of the training of data sets")
+    add_seed(to)
     to.add_argument("--steps", type=int, default=3_000, help="of tuning for an order")
     to.add_argument(
         "--misordered-in", choices=("group", "pixel"), default="group", help="as of tune"
@@ -284,10 +287,27 @@ def find_subjects(
     subjects = []
     for source in sources:
         if isinstance(source, Scene):
-            own = (source.spec, source.cameras, arguments.size, arguments.between)
-            subjects.append(Subject(source.name, *own))
+            spec, cameras = in_files(source, arguments)
+            subjects.append(
+                Subject(source.name, spec, cameras, arguments.size, arguments.between)
+            )
         else:
             scene = str(next(trained).scene)
             of = {"dataset": str(source), "downscale": arguments.downscale}
             subjects.append(Subject(source.name, scene, **of))
     return subjects
+
+
+def in_files(scene: Scene, arguments: argparse.Namespace) -> tuple[str, str]:
+    """What the command takes for the scene and its cameras. A built-in one is written, since what
+    is tuned of it brings no cameras. Raises Failure."""
+    if scene.cameras:
+        return scene.spec, scene.cameras
+    binary = arguments.streaminggs
+
+    def make(place: pathlib.Path, _: IO) -> None:
+        words = [scene.spec, str(place / "scene.ply"), "--cameras-out", str(place / "cameras.json")]
+        answered(binary, "convert", words, f"convert {scene.spec}")
+
+    place, _ = Keeper(binary, arguments.kept / "scenes").kept(scene.name, [scene.spec], make)
+    return str(place / "scene.ply"), str(place / "cameras.json")
