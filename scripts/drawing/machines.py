@@ -49,12 +49,7 @@ CIRCLES = {
     "linestyle": "none",
 }
 LPDDR3_GB_S, ORIN_NX_GB_S = 25.6, 102.4
-# Of the paper: frames a second of the GPU, and what its parts gain over the machine without
-# codebooks and coarse filter (energy 21.5, 27.3, 62.9 times that of the GPU; speed 22.2, 45.7).
-GPU_FPS = (2, 9)
-NEITHER = "paper_no_vq_cgf"
-PAPER_SPEED = {NEITHER: 1.0, "paper_no_cgf": 1.0, "paper": 45.7 / 22.2}
-PAPER_ENERGY = {NEITHER: 1.0, "paper_no_cgf": 27.3 / 21.5, "paper": 62.9 / 21.5}
+GPU_FPS = (2, 9)  # of the paper
 
 
 def memories(data: Data) -> list[str]:
@@ -276,49 +271,6 @@ def dram_by_stage(results: Results) -> Made:
     return figure, f"DRAM traffic by stage. {said.replace('`', '')}. From {data.made}"
 
 
-def variants(results: Results) -> Made:
-    data = results.table(
-        "compare_variants", "results.py compare_variants", ("scene", "variant", "M cycles", "mJ")
-    )
-    shown = {
-        NEITHER: "neither",
-        "paper_no_cgf": "codebooks",
-        "paper_no_vq": "coarse filter",
-        "paper": "both",
-    }
-    scenes = [
-        scene for scene in data.different("scene") if data.where(scene=scene, variant=NEITHER)
-    ]
-    if not scenes:
-        raise Missing(f"{data.made}: no rows of {NEITHER}")
-    groups = [*scenes, "StreamingGS,\nas stated"]
-    figure, both = panels(2, width=max(4.2, 0.8 * len(groups) + 1.4))
-    for axes, column, title, said in (
-        (both[0], "M cycles", "Times as fast as with neither", PAPER_SPEED),
-        (both[1], "mJ", "Times less energy than with neither", PAPER_ENERGY),
-    ):
-        for at, (variant, label) in enumerate(shown.items()):
-            gains = []
-            for scene in scenes:
-                (base,) = data.where(scene=scene, variant=NEITHER)
-                rows = data.where(scene=scene, variant=variant)
-                gains.append(number(base[column]) / number(rows[0][column]) if rows else 0)
-            gains.append(said.get(variant, 0))
-            places = [x + (at - 1.5) * 0.2 for x in range(len(groups))]
-            drawn = axes.bar(places, gains, 0.2, label=label, **bar_style(at))
-            axes.bar_label(drawn, [f"{gain:.1f}" if gain else "" for gain in gains], fontsize=7)
-        axes.axvline(len(scenes) - 0.5, color="#626a78", linewidth=0.8)
-        axes.set_xticks(range(len(groups)), groups, rotation=0 if len(groups) < 6 else 30)
-        axes.grid(axis="x", visible=False)
-        axes.set_title(title)
-    legend_above(figure, both[0])
-    caption = (
-        "What codebooks and coarse filter gain in paper order; StreamingGS states nothing of the "
-        f"coarse filter alone. From {data.made}"
-    )
-    return figure, caption
-
-
 def group_size(results: Results) -> Made:
     parts = ("DRAM mJ", "SRAM mJ", "logic mJ", "clock and leakage mJ")
     columns = ("preset", "group px", *parts, "bus MB", "mm2")
@@ -475,6 +427,5 @@ FIGURES = {
     "compare_machines_ratios": ratios,
     "characterisation": characterisation,
     "dram_by_stage": dram_by_stage,
-    "variants": variants,
     "group_size": group_size,
 }

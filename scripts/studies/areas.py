@@ -10,7 +10,7 @@ import tables
 from runs import run_arguments
 from runs.files import read_json
 from runs.scenes import find_scene, find_scenes
-from runs.simulations import MB, MJ, Run, cycles, decibels, joules, mm2, simulate_all
+from runs.simulations import MB, MJ, Run, cycles, decibels, simulate_all
 from studies.synthesis import SMALL_SCENE, TECHNOLOGY
 from tables import PRESET, PSNR, Column, Study
 
@@ -18,7 +18,7 @@ SCENE = "truck"
 PRESETS = (
     *("exact", "exact_fast", "exact_wide", "exact_half", "exact_fp16"),
     *("exact_vq", "exact_vq_packed"),
-    *("paper", "paper_no_vq", "paper_no_cgf", "paper_no_vq_cgf"),
+    *("paper_text", "paper_ideal", "paper", "paper_no_vq", "paper_no_cgf", "paper_no_vq_cgf"),
     *("gscore", "gscore_fp32_keys", "gscore_boxes", "gscore_lossless", "gscore_lossless_boxes"),
 )
 PRESET_COLUMNS = (

@@ -7,12 +7,12 @@ import dataclasses
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from runs.simulations import asked_mb, cycles, joules, mean
-from studies.published import REAL_SIZE, SYNTHETIC_SIZE, dropped_percent
+from runs.simulations import asked_mb, cycles, joules, mean, work
 
 Views = Sequence[dict]
 
-NO_VQ_CGF, NO_CGF = "_no_vq_cgf", "_no_cgf"
+REAL_SIZE, SYNTHETIC_SIZE = "980x545", "800x800"
+NO_VQ_CGF, NO_VQ, NO_CGF = "_no_vq_cgf", "_no_vq", "_no_cgf"
 # Of a preset, and keys over it; FFUs are those of an HFU.
 TWICE_CFUS, TWICE_FFUS = "twice the CFUs", "twice the FFUs"
 VARIANTS: dict[str, tuple[str, tuple[str, ...]]] = {
@@ -75,6 +75,14 @@ def gain(slower: str, faster: str) -> Callable[[Found], float]:
 def less_than_other(value: Callable[[dict], float]) -> Callable[[Found], float]:
     """How many times less than GSCore's."""
     return over_scenes(lambda s: mean(s.other, value) / mean(s.of[""], value))
+
+
+def dropped_percent(view: dict) -> float:
+    """By both filters: of the coarse tests of a Gaussian against what an HFU works for, those that
+    make no splat."""
+    counters = [unit["counters"] for unit in view["units"].values()]
+    fine_splats = sum(of["splats"] for of in counters if "fine_tests" in of)
+    return 100 * (1 - fine_splats / work(view, "coarse_tests_of_parts"))
 
 
 @dataclasses.dataclass(frozen=True)

@@ -35,7 +35,7 @@ from studies import cases
 from studies.cases import MEMORIES, OTHER, Case, components, joules_of
 from tables import PRESET, SCENE, SIZE, VIEW, Column, Spread, Study
 
-# Second halves raw in both: codebooks are compare_variants' business.
+# Second halves raw in both: codebooks are the reproduction's business.
 PRESETS = ("exact", "paper_no_vq")
 # One rule for both: paper order's presets charge a test what the paper states of its filters.
 SAME_COST = "hfu.cost=counted"

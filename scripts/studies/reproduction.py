@@ -12,7 +12,9 @@ from runs import run_arguments
 from runs.keeper import swept
 from runs.scenes import Scene, find_scenes, shared_names
 from runs.simulations import (
+    MJ,
     Run,
+    asked_mb,
     cycles,
     decibels,
     group_assignments,
@@ -24,6 +26,9 @@ from runs.simulations import (
 from studies import subjects
 from studies.cases import model_all
 from studies.claims import (
+    NO_CGF,
+    NO_VQ,
+    NO_VQ_CGF,
     REAL,
     SYNTHETIC,
     VARIANTS,
@@ -108,6 +113,17 @@ MAP_COLUMNS = (
     Column("FFUs", "of an HFU", "", "d"),
     Column("times as fast", "as with one of each; geometric mean over the scenes", "", ".2f"),
     Column("dB, least", "PSNR of the worst view", "dB", ".1f"),
+)
+WITH_PARTS = {NO_VQ_CGF: "neither", NO_CGF: "codebooks", NO_VQ: "coarse filter", "": "both"}
+VARIANT_COLUMNS = (
+    SCENE,
+    PRESET,
+    Column("with", "what there is of codebooks and the coarse filter"),
+    Column("asked MB", "requested by units, mean over the views", "MB", ".2f"),
+    Column("M cycles", "of the frame, mean over the views", "10^6 cycles", ".3f"),
+    Column("mJ", "of the frame, mean over the views", "mJ", ".3f"),
+    Column("times as fast", "as with neither", "", ".2f"),
+    Column("times less energy", "than with neither", "", ".2f"),
 )
 WATERFALL_COLUMNS = (
     Column("order", "from the ideal to the text, each part taken away; or the parts reversed"),
@@ -215,6 +231,19 @@ def map_rows(preset: str, by_units: Mapping[tuple[str, str], Sequence[Views]]) -
     ]
 
 
+def variant_rows(scene: Scene, preset: str, by_suffix: Mapping[str, Views]) -> list[tuple]:
+    neither = by_suffix[NO_VQ_CGF]
+    return [
+        (
+            *(scene.name, preset, WITH_PARTS[suffix], mean(views, asked_mb)),
+            *(mean(views, cycles) / 1e6, mean(views, joules) / MJ),
+            mean(neither, cycles) / mean(views, cycles),
+            mean(neither, joules) / mean(views, joules),
+        )
+        for suffix, views in by_suffix.items()
+    ]
+
+
 def add_reproduction_arguments(to: run_arguments.Parser) -> None:
     run_arguments.add_scenes(to, "all real scenes")
     to.add_argument(
@@ -233,7 +262,7 @@ def add_reproduction_arguments(to: run_arguments.Parser) -> None:
         "--channels", nargs="+", type=int, default=[4, 8], metavar="N", help="of memory"
     )
     to.add_argument(
-        "--waterfall-group", default="96", metavar="PX", help="of the waterfall and the map"
+        "--waterfall-group", default="96", metavar="PX", help="of waterfall, map and variants"
     )
 
 
@@ -247,8 +276,8 @@ class Plan:
 
     points: Sequence[Point]
     orders: Sequence[tuple[str, list]]  # of the waterfall
-    group: str  # of the waterfall and the map
-    channels: int  # of both
+    group: str  # of the waterfall, the map and the variants
+    channels: int  # of all three
 
     def runs(self, kind: Kind, run: Run) -> dict[object, Run]:
         """Of a scene, by what they are of. run: its scene, view and size."""
@@ -269,6 +298,8 @@ class Plan:
         for order, steps in self.orders:
             for step, gone in steps:
                 put((order, step), IDEAL, *at, *gone)
+        for preset, suffix in itertools.product((TEXT, IDEAL), WITH_PARTS):
+            put((preset, suffix), preset + suffix, *at)
         for preset, cfus, ffus in itertools.product((TEXT, IDEAL), CFUS, FFUS):
             put((preset, cfus, ffus), preset, *at, f"hfu.cfus={cfus}", f"hfu.ffus={ffus}")
         return out
@@ -375,6 +406,15 @@ def make_reproduction(arguments: argparse.Namespace) -> None:
     write("reproduction_waterfall", WATERFALL_COLUMNS, rows)
     rows = [
         row
+        for scene, each in zip(scenes, measured)
+        for preset in (TEXT, IDEAL)
+        for row in variant_rows(
+            scene, preset, {suffix: each.views[preset, suffix] for suffix in WITH_PARTS}
+        )
+    ]
+    write("reproduction_variants", VARIANT_COLUMNS, rows)
+    rows = [
+        row
         for preset in (TEXT, IDEAL)
         for row in map_rows(
             preset,
@@ -385,7 +425,8 @@ def make_reproduction(arguments: argparse.Namespace) -> None:
         )
     ]
     write("reproduction_map", MAP_COLUMNS, rows)
-    tables.draw_beside(arguments.out, "reproduction")
+    for figure in ("reproduction", "variants"):
+        tables.draw_beside(arguments.out, figure)
 
 
 ABOUT = (
@@ -403,9 +444,10 @@ most faithful reading, and `paper_ideal`, with the assumptions under which its n
   reproduction_claims     each claim: published, band, measured, passes or not, with its dB
   reproduction_scenes     rate, speed, energy and dB by scene
   reproduction_waterfall  from the ideal to the text, part by part, in two orders
+  reproduction_variants   both presets without codebooks, coarse filter, both
   reproduction_map        speed by CFUs and FFUs, the paper's heat map
 
-and their figure, reproduction. SCENE are real ones. A claim of a kind is of scenes of that kind, all
+and their figures, reproduction and variants. SCENE are real ones. A claim of a kind is of scenes of that kind, all
 others of all.
 """,
     ("results.py reproduction truck playbot platform yard garden park",),

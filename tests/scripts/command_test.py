@@ -25,10 +25,10 @@ from studies.frame_costs import BINDING_CHECK, ENERGY, TIMING
 from studies.headset import HEADSET
 from studies.headset_published import Published, Setting
 from studies.matched import MATCHED_SCENES
-from studies.published import PAPER_CLAIMS, PUBLISHED_FIGURES
+from studies.published import PUBLISHED_FIGURES
 from studies.reproduction import REPRODUCTION
 from studies.quality import QUALITY_TABLE, VOXEL_STUDY
-from studies.variants import COMPARE_VARIANTS, HALF_BY_STAGE, WORK_PRECISION
+from studies.variants import HALF_BY_STAGE, WORK_PRECISION
 
 RENDERERS = pathlib.Path(COMMAND).with_name("bench_renderers") if COMMAND else ""
 SMALL_ERRORS = ("--size", "64x36", "--renderers", str(RENDERERS))
@@ -81,7 +81,6 @@ class WithTheCommand(InFolder):
                 | {"in flight | truck |": 1, "| dram.scheduler=fcfs |": 1}
                 | {"| paper | fine | 0 |": 1, "{": 0, "None": 0},
             ),
-            (COMPARE_VARIANTS, ("--size", "64x36"), {"| truck |": 8 + 1, "| StreamingGS |": 1}),
             (
                 ENERGY,
                 ("--groups", "16", "64x32"),
@@ -98,7 +97,6 @@ class WithTheCommand(InFolder):
                 ("--config", "gscore", "--axis", "cores=1,2"),
                 {"| cores | sum(cycles) | sum(dram_bytes) | sram_bytes | mm2 |": 1, "\n| 1 |": 1},
             ),
-            (PAPER_CLAIMS, ("--size", "64x36"), {"| area, mm2 | 5.37 |": 1, "| claim |": 1}),
             (MATCHED_SCENES, ("--size", "64x36"), {"| GSCore, frames/s | 106 | 79.5 | 132.5 |": 1}),
             (
                 explore,
@@ -388,7 +386,6 @@ class WithTheCommand(InFolder):
             (COMPARE_MACHINES, ("--sizes", "64x36"), "--sizes: got only this, expected --object-"),
             (COMPARE_MACHINES, ("--machines", "nope"), "--config nope: no file"),
             (COMPARE_MACHINES, ("--channels", "3"), "dram.channels: got 3, expected a power"),
-            (COMPARE_VARIANTS, ("--view", "x"), "--view: 'x', expected numbers"),
             (CHOICES, ("--view", "0,1"), "--view: got 0,1, expected the number of a camera"),
             (CHOICES, ("--size", "3"), "--size: got 3, expected WIDTHxHEIGHT in px"),
             (TIMING, ("--view", "7"), "--view: got '7'"),

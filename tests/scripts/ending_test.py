@@ -23,7 +23,7 @@ from studies.fitting import BOUNDARY_STUDY, TRAINING_CURVES
 from studies.frame_costs import BINDING_CHECK, ENERGY, TIMING
 from studies.published import PUBLISHED_FIGURES
 from studies.quality import QUALITY_TABLE, VOXEL_STUDY
-from studies.variants import COMPARE_VARIANTS, HALF_BY_STAGE, WORK_PRECISION
+from studies.variants import HALF_BY_STAGE, WORK_PRECISION
 
 SCENE = Scene("toy", "builtin:object")
 
@@ -62,7 +62,6 @@ SCRIPTS = (
     (BINDING_CHECK, ()),
     (BOUNDARY_STUDY, ()),
     (CHOICES, ("--tables", "merge_heap")),
-    (COMPARE_VARIANTS, ()),
     (ENERGY, ()),
     (explore, ("--axis", "hfus=2,4")),
     (HALF_BY_STAGE, ()),

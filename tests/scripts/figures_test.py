@@ -109,18 +109,14 @@ TABLES = {
         ("lego, seed 2", "minutes"),
     ),
     "variants": (
-        "compare_variants",
-        names(variants.VARIANT_COLUMNS),
+        "reproduction_variants",
+        names(reproduction.VARIANT_COLUMNS),
         [
-            {"scene": "yard", "variant": variant, "M cycles": cycles, "mJ": joules}
-            for variant, cycles, joules in (
-                ("paper", 2, 1),
-                ("paper_no_vq", 3, 2),
-                ("paper_no_cgf", 4, 3),
-                ("paper_no_vq_cgf", 6, 4),
-            )
+            {"scene": "yard", "preset": preset, "with": part}
+            for preset in ("paper_text", "paper_ideal")
+            for part in reproduction.WITH_PARTS.values()
         ],
-        ("yard", "StreamingGS,", "2.1", "2.9", "3.0", "4.0"),
+        ("yard", "StreamingGS,", "Times less energy, paper_text", "coarse filter"),
     ),
     "voxel_size": (
         "voxel_study",
@@ -396,7 +392,7 @@ class Drawn(Figures):
         tables = self.folder / "traces" / "results"
         tables.mkdir(parents=True)
         self.write("variants")
-        for path in self.folder.glob("compare_variants.*"):
+        for path in self.folder.glob("reproduction_variants.*"):
             path.rename(tables / path.name)
         with mock.patch.object(figures, "REPOSITORY", self.folder):
             status, said, out = self.ended(figures, "variants", "waits")
@@ -405,12 +401,12 @@ class Drawn(Figures):
         self.assertTrue((self.folder / "out" / "figures" / "variants.svg").exists())
 
     def test_what_is_refused(self):
-        (self.folder / "compare_variants.csv").write_text("scene,mJ\ntruck,1\n")
+        (self.folder / "reproduction_variants.csv").write_text("scene,mJ\ntruck,1\n")
         (self.folder / "voxel_study.csv").write_text("scene\n")
         for words, said in (
             (("nope",), "nope: no figure, expected headline"),
             (("characterisation",), "nothing to draw"),
-            (("variants",), "columns scene, mJ; expected variant"),
+            (("variants",), "columns scene, mJ; expected preset"),
             (("voxel_size",), "expected of the preset's"),
             (("--from", "/nowhere"), "--from: /nowhere: no folder"),
         ):
