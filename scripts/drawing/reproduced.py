@@ -77,7 +77,7 @@ def draw_claims(axes: Axes, rows: list[dict[str, str]]) -> None:
 
 def draw_waterfall(axes: Axes, data: Data, order: str) -> None:
     """From the ideal to the text."""
-    rows = data.where(order=order)
+    rows = [row for row in data.where(order=order) if number(row["factor"])]
     values = [number(row["times as fast as GSCore"]) for row in rows]
     names = [rows[0]["step"], *(f"− {row['step']}" for row in rows[1:])]
     axes.plot(range(len(rows)), values, drawstyle="steps-mid", color=COLOURS[0], linewidth=1.6)
@@ -108,7 +108,7 @@ def reproduction(results: Results) -> Made:
         ("claim", "published", "least", "most", "preset", "group px", "GB/s", "measured", "passes"),
     )
     waterfall = results.table(
-        "reproduction_waterfall", MAKER, ("order", "step", "times as fast as GSCore")
+        "reproduction_waterfall", MAKER, ("order", "step", "times as fast as GSCore", "factor")
     )
     units = results.table("reproduction_map", MAKER, ("preset", "CFUs", "FFUs", "times as fast"))
     rows = one_point(claims)
