@@ -97,7 +97,8 @@ def machine_axes(
         small_run(arguments), overrides=own, fit_memories=not sizes_memory(own)
     )
     (view,) = simulate(kept.binary, run).accepted()
-    return order.with_blend(view["datapath"][order.blend]["used"]["macs"]).axes, order.fixed
+    blend = order.with_blend(view["datapath"][order.blend]["used"]["macs"])
+    return with_own(blend.axes, config), order.fixed
 
 
 def open_memories(config: dict) -> Assignments:

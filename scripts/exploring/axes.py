@@ -8,7 +8,7 @@ import itertools
 import math
 import pathlib
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from runs.files import read_text
 from runs.simulations import GROUP, GROUP_KEYS, expanded, group_assignments
@@ -16,7 +16,7 @@ from runs.simulations import GROUP, GROUP_KEYS, expanded, group_assignments
 Assignments = tuple[str, ...]
 # How many there are of what other axes make larger, and what excludes what: a step on another axis
 # takes about the same area wherever these are alike.
-STRUCTURE = ("hfus", "fetch", "rendering.clusters", "ccus", "cores")
+STRUCTURE = ("hfus", "hfu.cfus", "hfu.ffus", "fetch", "rendering.clusters", "ccus", "cores")
 # KEY@SCENE=VALUE holds for one scene, such as how it is stored; KEY@each=... is an axis for each.
 EACH = "each"
 
@@ -95,6 +95,28 @@ class Order:
         )
 
 
+def with_own(axes: Sequence[Axis], config: Mapping) -> tuple[Axis, ...]:
+    """Each axis of numbers also with the configuration's own, so that a search may begin at it. But
+    for memories, whose sizes follow from all else."""
+
+    def with_its_own(a: Axis) -> Axis:
+        value: object = config
+        for part in a.name.split("."):
+            value = value.get(part) if isinstance(value, Mapping) else None
+        there = [number(s.partition("=")[2]) for setting in a.settings for s in setting]
+        single = all(len(setting) == 1 for setting in a.settings) and None not in there
+        if isinstance(value, bool) or not isinstance(value, int | float) or not single:
+            return a
+        if sizes_memory(a.settings[0]) or not value or value in there:
+            return a
+        rises = there == sorted(there)
+        place = sum((of < value) == rises for of in there)
+        own = (f"{a.name}={value:g}",)
+        return Axis(a.name, (*a.settings[:place], own, *a.settings[place:]))
+
+    return tuple(map(with_its_own, axes))
+
+
 def number(text: str) -> float | None:
     try:
         return float(text)
@@ -129,13 +151,14 @@ SHAPES = (*SQUARES, "128x120", "160x120", "216x120", "160x180", "320x180")
 
 COMMON = (
     axis("hfus", 1, 2, 3, 4, 6, 8, 9),
-    axis("rendering.clusters", 1, 2, 4, 8),
+    axis("rendering.clusters", 1, 2, 3, 4, 5, 6, 8),
     axis("rendering.cluster_lanes", 480),
     # As many as give an interval of whole cycles, or several rows at once.
     axis("rendering.begin_lanes", 6, 8, 11, 16, 25, 40, 76),
     axis("rendering.span_lanes", 5, 8, 10, 20, 40, 60),
     axis("hfu.ffu_lanes", 4, 8, 12, 16, 20, 24, 32, 48, 64),
-    axis("hfu.cfu_lanes", 1, 2, 3, 4, 6, 8, 12),
+    axis("hfu.cfus", 1, 2, 4),
+    axis("hfu.cfu_lanes", 1, 2, 3, 4, 6, 8, 12, 16),
     axis("hfu.second_half_slots", 4, 6, 8, 16, 24, 32, 48),
     axis("hfu.candidate_fifo_entries", 7, 10, 16, 24, 32),
     axis("memory_port.max_outstanding", 4, 8, 16, 32),
@@ -169,14 +192,19 @@ def lists(gaussians: int, entries: int) -> Assignments:
 
 PAPER = Order(
     "paper",
-    "paper_no_vq",
+    "paper_text_no_vq",
     ALIKE,
     (
         groups(*SHAPES),
+        Axis("voxels of a ray", (("vsu.sample_step_voxels=0.5",), ("vsu.sample_step_voxels=0",))),
+        axis("vsu.samples_per_cycle", 1, 2, 4, 8),
+        axis("vsu.renaming_bytes", 16384, 65536, 262144),
+        axis("vsu.adjacency_lines", 64, 256, 1024),
+        axis("hfu.ffus", 1, 2, 4),
         axis("fetch", "split", "shared"),
         axis("hfu.slice_gaussians", 16, 32, 64, 128, 256, 512),
         axis("hfu.input_slots", 2, 3, 4),
-        axis("sorting.input_fifo_entries", 4, 7, 12, 20, 32),
+        axis("sorting.input_fifo_entries", 4, 7, 12, 20, 32, 64),
         Axis(
             "lists",
             (lists(64, 64), lists(128, 128), lists(256, 256), lists(512, 512), lists(0, 1024)),
