@@ -180,9 +180,12 @@ void RankMaintenance::on_command(Command command, std::uint64_t cycle) {
       break;
     case Command::kSelfRefreshExit:
       state_ = State::kUp;
-      // The device has refreshed itself; the standard asks for one refresh after leaving.
+      // The device has refreshed itself. JESD209-3 asks for a refresh of all banks after leaving and
+      // before entering again, all at once or bank by bank.
       if (mode_ != RefreshMode::kOff) {
         refresh_due_ = cycle;
+        owed_after_exit_ = mode_ == RefreshMode::kPerBank ? sets_ : 1;
+        owed_intervals_ = owed_after_exit_;
         // It also begins its count of banks again.
         due_sets_ = all_of(sets_);
         turn_ = 0;
@@ -197,7 +200,11 @@ void RankMaintenance::on_command(Command command, std::uint64_t cycle) {
       choose_set();
       [[fallthrough]];
     case Command::kRefreshAll:
-      refresh_due_ += interval_;
+      if (owed_after_exit_ > 0) --owed_after_exit_;
+      if (owed_after_exit_ == 0) {
+        refresh_due_ += interval_ * owed_intervals_;
+        owed_intervals_ = 1;
+      }
       set_urgency(cycle);
       break;
     case Command::kPrecharge:

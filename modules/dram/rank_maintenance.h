@@ -84,6 +84,8 @@ class RankMaintenance {
 
   State state_ = State::kUp;
   std::uint64_t refresh_due_ = kNever;
+  std::uint32_t owed_after_exit_ = 0;  // refreshes due at once, before the next self-refresh
+  std::uint32_t owed_intervals_ = 1;   // that the refresh under way, or the last of these, covers
   std::uint64_t urgent_from_ = kNever;
   std::uint32_t turn_ = 0;         // the set after the last one refreshed
   std::uint32_t refresh_set_ = 0;  // whose turn it is, with per-bank refresh

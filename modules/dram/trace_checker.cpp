@@ -267,6 +267,8 @@ void TraceChecker::check_windows(const CommandRecord& r, const Rank& rank, Verdi
         verdict.at_least(bank.auto_closed + t.rp_bank, "auto-precharge + tRPpb");
   // A study without refresh ignores how long cells hold their charge, open rows included.
   if (header_.refresh == RefreshMode::kOff) return;
+  if (r.command == C::kSelfRefreshEnter && rank.owed_after_exit > 0)
+    verdict.forbid("self-refresh again before a refresh of all banks");
   for (const Bank& bank : rank.banks)
     if (bank.open && r.cycle > bank.opened + t.ras_max) verdict.forbid("tRASmax");
   if (!rank.self_refresh) {
@@ -328,6 +330,7 @@ void TraceChecker::apply(const CommandRecord& r) {
       rank.self_refresh = false;
       rank.refreshes_due_from = r.cycle;
       rank.refreshes = 0;
+      rank.owed_after_exit = memspec_.refresh_sets();
       rank.next_bank = 0;
       rank.had_their_turn = 0;
       break;
@@ -335,7 +338,9 @@ void TraceChecker::apply(const CommandRecord& r) {
       break;
   }
   if (r.command == C::kRefreshAll || r.command == C::kRefreshBank) ++rank.refreshes;
+  if (r.command == C::kRefreshBank && rank.owed_after_exit > 0) --rank.owed_after_exit;
   if (r.command == C::kRefreshAll) {  // it, too, begins the count of banks again
+    rank.owed_after_exit = 0;
     rank.next_bank = 0;
     rank.had_their_turn = 0;
   }

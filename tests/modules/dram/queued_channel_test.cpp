@@ -58,17 +58,24 @@ TEST_CASE("scheduling: the age cap ends a stream of hits") {
   CHECK(victim_completion(1000000) > 990);
 }
 
-TEST_CASE("scheduling: an aged write is not starved by reads") {
+TEST_CASE("scheduling: an aged write is not starved by reads, nor by urgent ones") {
+  const bool urgent = GENERATE(false, true);
   DramConfig config = quiet_config();
   config.age_cap_cycles = 300;
   Bench b(config);
   b.push(0, Direction::kWrite, 1, 5, 0, 1, 99);
-  for (std::uint64_t cycle = 0; cycle < 2000; cycle += 6) b.read(cycle, 0, 1, 1);
-  b.channel.advance(2000);
+  ChannelRequest read;
+  read.row = read.bursts = 1;
+  read.urgent = urgent;
+  for (std::uint64_t cycle = 0; cycle < 2000; ++cycle) {
+    b.channel.advance(cycle);
+    if (!b.channel.full(read)) b.channel.push(read, cycle);
+  }
   QueuedChannel::Completion c{};
   bool written = false;
   while (b.channel.take_completion(kNever, c))
     written = written || reinterpret_cast<std::uintptr_t>(c.owner) == 99;
+  INFO(urgent);
   CHECK(written);
 }
 
@@ -207,6 +214,24 @@ TEST_CASE("power states: a longer idle rank refreshes itself, with one refresh a
   b.channel.advance(100500);
   CHECK(b.sink.text() ==
         "ACT@0 RD@15 PREA@515 SRE@532 SRX@100000 REFA@100112 ACT@100216 RD@100231");
+}
+
+TEST_CASE("power states: bank by bank all are refreshed before the rank refreshes itself again") {
+  DramConfig config = quiet_config();
+  config.refresh = RefreshMode::kPerBank;
+  config.self_refresh_idle_cycles = 500;
+  Bench b(config);
+  b.read(0, 0, 1);
+  b.channel.advance(100000);
+  b.read(100000, 0, 1);
+  b.channel.advance(200000);
+  const std::string text = b.sink.text();
+  const std::string after = text.substr(text.find("SRX@100000"));
+  const std::string awake = after.substr(0, after.find("SRE@"));
+  std::size_t refreshes = 0;
+  for (std::size_t at = 0; (at = awake.find("REFB@", at)) != std::string::npos; ++at) ++refreshes;
+  INFO(text);
+  CHECK(refreshes == 8);
 }
 
 TEST_CASE("two ranks: reads that change rank pay the hand-over of the bus") {

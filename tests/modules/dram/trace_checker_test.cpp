@@ -341,6 +341,25 @@ TEST_CASE("trace checker: self-refresh begins the device's count of banks again"
   }
 }
 
+TEST_CASE("trace checker: between two self-refreshes all banks are refreshed, together or each") {
+  const auto constraint = [](RefreshMode mode, Command refresh, std::uint8_t refreshes) {
+    TraceChecker checker = make_checker(mode);
+    std::uint64_t cycle = 1000;
+    CHECK_FALSE(checker.check(record({100, C::kSelfRefreshEnter})));
+    CHECK_FALSE(checker.check(record({500, C::kSelfRefreshExit})));
+    for (std::uint8_t bank = 0; bank < refreshes; ++bank, cycle += 200)
+      CHECK_FALSE(checker.check(record({cycle, refresh, 0, bank})));
+    const auto found = checker.check(record({cycle + 200, C::kSelfRefreshEnter}));
+    return found ? found->constraint : "";
+  };
+  const std::string broken = "self-refresh again before a refresh of all banks";
+  CHECK(constraint(RefreshMode::kPerBank, C::kRefreshBank, 7) == broken);
+  CHECK(constraint(RefreshMode::kPerBank, C::kRefreshBank, 8).empty());
+  CHECK(constraint(RefreshMode::kAllBank, C::kRefreshAll, 0) == broken);
+  CHECK(constraint(RefreshMode::kAllBank, C::kRefreshAll, 1).empty());
+  CHECK(constraint(RefreshMode::kOff, C::kRefreshAll, 0).empty());
+}
+
 TEST_CASE("trace checker: as many per-bank refreshes may be postponed as all-bank ones cover") {
   // Nine all-bank intervals of eight banks, and the one that passes.
   for (const std::uint64_t intervals : {9u * 8u, 9u * 8u + 1u}) {
