@@ -76,7 +76,8 @@ void ArrivalOrderChannel::wake(std::uint32_t rank, std::uint64_t cycle) {
     const Candidate exit = maintenance_[rank].next(device_, cycle, 0);
     ChannelRequest none;
     none.rank = rank;
-    issue(exit.command, none, 0, exit.cycle);
+    // What it wished for earlier had to wait for the other rank's maintenance.
+    issue(exit.command, none, 0, std::max(exit.cycle, cycle));
   }
 }
 

@@ -131,7 +131,7 @@ bool QueuedChannel::aged(const RequestQueue& queue) const {
 Direction QueuedChannel::wanted_direction() const {
   if (writes_.empty()) return Direction::kRead;
   if (writes_due_ > 0) return Direction::kWrite;
-  if (reads_.has_urgent() && !aged(writes_)) return Direction::kRead;
+  if (reads_.has_urgent()) return Direction::kRead;
   if (reads_.empty()) return Direction::kWrite;
   if (direction_ == Direction::kWrite)
     return writes_.size() > low_watermark_ || aged(writes_) ? Direction::kWrite : Direction::kRead;

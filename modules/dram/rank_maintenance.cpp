@@ -70,6 +70,10 @@ void RankMaintenance::choose_set() {
 }
 
 void RankMaintenance::set_urgency(std::uint64_t cycle) {
+  if (owed_after_exit_ > 0) {  // requests may go first until the next interval is over
+    urgent_from_ = refresh_due_ + interval_ * owed_intervals_ + postpone_;
+    return;
+  }
   if (names_bank_) {
     const bool in_use = (waiting_sets_ >> refresh_set_ & 1) != 0;
     urgent_from_ = refresh_due_ + (in_use ? postpone_ : 0);
@@ -115,6 +119,10 @@ Candidate RankMaintenance::next(const DeviceTiming& device, std::uint64_t wanted
   if (in_time(low_power) && low_power.cycle < refresh_due_ && low_power.cycle < best.cycle)
     best = low_power;
   return best;
+}
+
+Candidate RankMaintenance::owed_refresh(const DeviceTiming& device, std::uint64_t clock) const {
+  return owed_after_exit_ > 0 ? refresh(device, std::max(refresh_due_, clock)) : Candidate{};
 }
 
 Candidate RankMaintenance::refresh(const DeviceTiming& device, std::uint64_t from) const {
@@ -190,7 +198,7 @@ void RankMaintenance::on_command(Command command, std::uint64_t cycle) {
         due_sets_ = all_of(sets_);
         turn_ = 0;
         choose_set();
-        set_urgency(0);
+        set_urgency(cycle);
       }
       break;
     case Command::kRefreshBank:

@@ -33,6 +33,9 @@ class RankMaintenance {
   // from which requests wait for this rank, kNever when none does.
   Candidate next(const DeviceTiming& device, std::uint64_t wanted_from, std::uint64_t clock) const;
 
+  // That waking from self-refresh asks for, where any is left.
+  Candidate owed_refresh(const DeviceTiming& device, std::uint64_t clock) const;
+
   // True if next() could come up with a command from `clock` up to `cycle`; cheap.
   bool may_act_by(std::uint64_t cycle, std::uint64_t wanted_from, std::uint64_t clock) const {
     return wanted_from > clock || state_ != State::kUp || urgent_from_ <= cycle;

@@ -34,7 +34,10 @@ class RestingChannel {
     while (true) {
       Candidate first;
       for (const RankMaintenance& rank : maintenance_) {
-        Candidate next = rank.next(device_, wanted_from, clock_);
+        // Those that waking asks for are paid before the end.
+        const Candidate owed = rank.owed_refresh(device_, clock_);
+        Candidate next =
+            owed.cycle != kNever ? owed : rank.next(device_, wanted_from, clock_);
         next.cycle = std::max(next.cycle, clock_);
         if (next.cycle < first.cycle) first = next;
       }
@@ -71,9 +74,11 @@ std::uint64_t wake_cycle(const DramConfig& config, const Memspec& memspec, std::
   const Memspec::Timing& t = memspec.timing_cycles;
   std::uint64_t least = t.cke, ready = t.xp;
   if (config.self_refresh_idle_cycles > 0) {
-    const std::uint32_t refresh = config.refresh == RefreshMode::kAllBank ? t.rfc_all : t.rfc_bank;
+    const std::uint32_t apart = t.pbr2pbr > 0 ? t.pbr2pbr : t.rfc_bank;
+    const std::uint32_t each = (memspec.refresh_sets() - 1) * apart + t.rfc_bank;
+    const std::uint32_t refreshes = config.refresh == RefreshMode::kAllBank ? t.rfc_all : each;
     least = t.cke_self_refresh;
-    ready = t.xsr + (config.refresh == RefreshMode::kOff ? 0 : refresh);
+    ready = t.xsr + (config.refresh == RefreshMode::kOff ? 0 : refreshes);
   }
   ready += config.ranks - 1;  // one command a cycle
   return cycles > config.ranks + t.rp_all + least + ready ? cycles - ready : 0;

@@ -161,9 +161,17 @@ Band write_queue_energy_j(const FrameResult& frame, const SramUse& queue, const 
   return bursts * kPj * (model.read_pj(queue) + model.write_pj(queue));
 }
 
+bool has_display(const FrameResult& frame) {
+  return std::any_of(frame.memory.traffic.begin(), frame.memory.traffic.end(),
+                     [](const RegionTraffic& of) { return of.requester == "display"; });
+}
+
+// A display wakes the memory for each row. PHY starts anew within a row's time at the low end alone.
 Band memory_interface_j(const FrameResult& frame, const Technology& technology) {
   const double stands = frame.memory.time_in_s(kSelfRefreshState) / frame.time_s();
-  return frame.time_s() * interface_w(frame, stands, technology) +
+  Band watts = interface_w(frame, stands, technology);
+  if (has_display(frame)) watts.middle = interface_w(frame, 0, technology).middle;
+  return frame.time_s() * watts +
          write_queue_energy_j(frame, write_queues(frame, technology), technology.sram);
 }
 

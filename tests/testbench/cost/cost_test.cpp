@@ -205,6 +205,21 @@ TEST_CASE("cost: at a fixed rate the band ends where the memory may not refresh 
   }
 }
 
+TEST_CASE("cost: between rows of a display the memory's interface stands at the low end alone") {
+  Technology technology = priced();
+  technology.memory_interface.mw = {9, 17, 60};
+  for (const bool display : {false, true}) {
+    FrameResult shown = frame();
+    shown.memory.states = {{kSelfRefreshState, shown.time_s() / 2, 0}};
+    if (display) shown.memory.traffic.push_back({"frame_buffer", "display", 64, 0});
+    const double moved = energy_totals(frame(), technology).memory_interface.middle;
+    const Band stands = energy_totals(shown, technology).memory_interface;
+    INFO(display);
+    CHECK(stands.low < energy_totals(frame(), technology).memory_interface.low);
+    CHECK((stands.middle == Approx(moved)) == display);
+  }
+}
+
 TEST_CASE("cost: joules with and without the memory's interface, whatever the table counts") {
   Technology technology = priced();
   technology.memory_interface.mw = {9, 17, 60};
