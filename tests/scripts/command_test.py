@@ -14,7 +14,15 @@ import tables
 from runs import simulations
 from runs.scenes import find_scene, program_provenance
 from runs.simulations import value_at
-from studies import choices, claims, headset, headset_published, published, reproduction
+from studies import (
+    choices,
+    claims,
+    gpu_validation,
+    headset,
+    headset_published,
+    published,
+    reproduction,
+)
 from studies.choices import CHOICES
 from studies.compare_machines import COMPARE_MACHINES
 from studies.stability import STABILITY_TABLE
@@ -28,6 +36,7 @@ from studies.matched import MATCHED_SCENES
 from studies.published import PUBLISHED_FIGURES
 from studies.reproduction import REPRODUCTION
 from studies.quality import QUALITY_TABLE, VOXEL_STUDY
+from studies.validation import VALIDATION
 from studies.variants import HALF_BY_STAGE, WORK_PRECISION
 
 RENDERERS = pathlib.Path(COMMAND).with_name("bench_renderers") if COMMAND else ""
@@ -287,6 +296,33 @@ class WithTheCommand(InFolder):
             "| frames/s, calibrated to | 4.9 |": 1,
         }.items():
             self.assertEqual(made.count(text), count, f"{text} in\n{made}")
+
+    def check_validation(self, parts: dict[str, dict[str, int]]):
+        small = ("builtin:object?n=300", "64x36")
+        words = ("--requests", "4000", "--decades", "0", "--parts", *parts)
+        with mock.patch.multiple(gpu_validation, OUTDOOR=small, AS_GBU=small, REAL_SIZE="64x36"):
+            made = self.made(VALIDATION, *words)
+        for lines in parts.values():
+            for text, count in lines.items():
+                self.assertEqual(made.count(text), count, f"{text} in\n{made}")
+
+    def test_parts_stand_beside_others(self):
+        if not pathlib.Path(COMMAND).with_name("bench_quantisation").exists():
+            self.skipTest("bench_quantisation is not built")
+        self.check_validation(
+            {
+                "gpu": {"| time of sort and ranges | % | 21 |": 1, "| truck, 64x36 |": 4},
+                "sram": {"| Horowitz, 45 nm | 1024 x 64 bit |": 1},
+                "codebooks": {"| truck | 0 | plain k-means |": 1, "| truck | 0 | ours, ": 3},
+                "tuning": {"| yes |": 14},
+            }
+        )
+
+    @nightly
+    def test_the_memory_stands_beside_others(self):
+        self.check_validation(
+            {"memory": {"| Ramulator 2.1 |": 5, "| DRAMsim3 |": 4, "| 32 KB | stride 4 KB |": 1}}
+        )
 
     def test_from_photographs_to_tables(self):
         photographs = str(self.write_dataset())

@@ -12,17 +12,20 @@ import in_folder  # noqa: F401, isort: skip (finds the scripts)
 import results
 from exploring import measures
 from exploring.axes import Axis, Space, of_scene, parse_axes, parse_axis, read_points
-from runs import simulations
-from runs.scenes import REPOSITORY, Scene, find_scene, find_scenes
+from runs import beside, simulations
+from runs.scenes import REPOSITORY, Failure, Scene, find_scene, find_scenes
 from runs.simulations import pareto_front
 from studies import (
     areas,
     cases,
     choices,
     frame_costs,
+    gpu_validation,
+    memory_validation,
     power,
     stability,
     stream_shares,
+    validation,
     variants,
 )
 
@@ -694,6 +697,101 @@ class Choices(unittest.TestCase):
         for text, said in (("frame.nope", "nope: not in the report"), ("change:units", "got {")):
             with self.subTest(text), self.assertRaisesRegex(ValueError, said):
                 choices.value(of, text)
+
+
+class Validation(unittest.TestCase):
+    """What programs beside the command print, and formulas."""
+
+    def test_streams_stand_in_the_order_of_their_file(self):
+        seq = {"pattern": "sequential", "bytes": 64, "bound": 6.2, "dramsim3": 6.1}
+        stride = {"pattern": "stride", "bytes": 32, "stride": 4096, "ramulator_mean_ns": 9}
+        writes = {"pattern": "random", "bytes": 64, "write_percent": 30, "window": 1}
+        published = {"one_channel": [seq], "four_channels": [stride, writes]}
+        line = "{} |  {}  0.991  95.6      335/320/492   274    280..324   5.7   1798 | a | b"
+        lines = [line.format(name, gb_s) for name, gb_s in (("s", 6), ("4 KB t", 5), ("u", 4))]
+        ours = [335, 274, 280, 324]
+        rows = memory_validation.stream_rows("\n".join(["stream | ours", *lines]), published)
+        self.assertEqual(rows["one_channel"], [["seq 64 B", 6.2, 6, *ours, 6.1, None, None, None]])
+        first, second = rows["four_channels"]
+        self.assertEqual(first, ["stride 4 KB", None, 5, *ours, None, None, None, 9])
+        self.assertEqual(second[:3], ["random 64 B, 30 % writes, window 1", None, 4])
+        with self.assertRaisesRegex(ValueError, "got 1 streams, expected 3 of published.json"):
+            memory_validation.stream_rows(lines[0], published)
+
+    def test_memories_stand_beside_their_bounds(self):
+        pairs = "    ".join(f"{at}.5/{at + 9}.0 " for at in range(6))
+        parts = memory_validation.part_values(f"memspec  peak seq\nlpddr3  6.400  {pairs}\n")
+        row = memory_validation.part_row("lpddr3", *parts["lpddr3"])
+        self.assertEqual(row, ("lpddr3", 6.4, 0.5, 1.5, 2.5, 11, 3.5, 12, 4.5, 5.5))
+        with self.assertRaisesRegex(ValueError, "got no memory"):
+            memory_validation.part_values("memspec peak")
+
+    def test_every_foreign_memory_is_one_of_ours(self):
+        for of in json.loads(memory_validation.SIMULATED.read_text())["beside"]:
+            with self.subTest(of["memspec"], simulator=of["simulator"]):
+                self.assertTrue((memory_validation.MEMSPECS / f"{of['memspec']}.json").exists())
+                self.assertEqual(len(of["gb_s"]), len(memory_validation.STREAMS))
+
+    def test_pictures_of_codebooks(self):
+        head = "PSNR\n| scene |\n| --- |\n"
+        line = "| a | 3 | 1.5 2.5 | 9.0 | 3 4 | 9 | 5 6 | 9 | 7 8 | 9 |"
+        rows = validation.quantisation_rows(head + line)
+        self.assertEqual(len(rows), 2 * len(validation.CODEBOOKS))
+        self.assertEqual(rows[1], ("a", 3, "plain k-means", 1, 2.5))
+        self.assertEqual(rows[-1], ("a", 3, "ours, weighed by all views", 1, 8))
+        with self.assertRaisesRegex(ValueError, "expected a table of 10 columns"):
+            validation.quantisation_rows(head + "| a | 3 |")
+
+    def test_programs_beside_the_command(self):
+        line = "/x/tb_dram: not there; scripts/setup.sh release tb_dram builds it"
+        with self.assertRaisesRegex(ValueError, line):
+            beside.beside(pathlib.Path("/x/streaminggs"), "tb_dram")
+        shell = pathlib.Path("/bin/sh")
+        self.assertEqual(beside.printed(shell, ["-c", "echo a; echo b >&2"]), "a\n")
+        for status, kind, said in ((2, ValueError, "^c$"), (1, Failure, "sh: exit status 1: a c")):
+            with self.subTest(status), self.assertRaisesRegex(kind, said):
+                beside.printed(shell, ["-c", f"echo a; echo b >&2; echo c >&2; exit {status}"])
+
+    def test_limits_of_tuning(self):
+        row = "| s | all | 0.1 | 0.2 | 10^1: 0.3 | {} | {} | {} |"
+        for cells, expected in (
+            (("10^2", f"10^3: step 4: x {validation.BEYOND}", "yes"),)
+            + ((100, 1000, "step 4: x beyond the limits", True),),
+            (("10^20", "never", "NO"), (1e20, None, "", False)),
+            (("none", "10^0: why", "yes"), (None, 1, "why", True)),
+        ):
+            with self.subTest(cells):
+                (found,) = validation.limit_rows("| scene |\n|---|\n" + row.format(*cells))
+                self.assertEqual(found, ("s", "all", 0.1, 0.2, 10, 0.3, *expected))
+
+    def test_the_formula_of_memories(self):
+        """16 bits, 4 at once: one port has 16 x 2 + 4 x 3 um2 and takes 4 (1 + 4) + 3 x 4 pJ."""
+        sram = {"um2_bit": 2, "um2_width": 3, "pj_width": 1, "pj_cell": 1, "pj_decode": 3}
+        sram["second_port"] = {"middle": 2.5}
+        point = {"bits": 16, "width_bits": 4, "ports": 1, "um2": 80, "um2_scale": 0.5}
+        point |= {"pj": 0, "pj_scale": 1}
+        both = {**point, "ports": 2, "um2": 0, "pj": 64, "pj_scale": 0.5}
+        sram["points"] = {"cacti45_4x4": point, "cacti22_4x4": both}
+        sram["pairs"] = {"ihp130_4x4": {"bits": 16, "width_bits": 4, "one_um2": 1, "two_um2": 2}}
+        rows = list(validation.sram_rows(sram))
+        self.assertEqual([row[1] for row in rows], ["4 x 4 bit"] * 3)
+        for row, area, energy in zip(rows, (10, None, 25), (None, 0, None)):
+            for got, expected in zip(row[2:], (area, energy)):
+                self.assertEqual(got if got is None else round(got, 9), expected, row)
+        known = json.loads(validation.TECHNOLOGY.read_text())["sram"]
+        count = len(known["points"]) + len(known["pairs"])
+        self.assertEqual(len(list(validation.sram_rows(known))), count)
+
+    def test_the_gpu_beside_what_is_published(self):
+        moved = {"scene_bytes": 1, "intermediate_bytes": 2, "frame_bytes": 1}
+        seconds = {"sort": 1, "ranges": 1, "rendering": 6}
+        stages = [{"name": name, "seconds": of, **moved} for name, of in seconds.items()]
+        view = {"seconds": 0.25, "joules": 2, "stages": stages}
+        rows = list(gpu_validation.gpu_rows([view], [view, {**view, "seconds": 0.5}], [view], "s"))
+        found = {row[2]: row[4:] for row in rows}
+        self.assertEqual(found["intermediate bytes"][:3], (85, 50, 50))
+        self.assertEqual(found["rate"][:3], (13, 2, 4))
+        self.assertEqual(found["time of sort and ranges"], (21, 25, 25, "s"))
 
 
 if __name__ == "__main__":
