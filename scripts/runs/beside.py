@@ -32,11 +32,11 @@ def printed(program: pathlib.Path, words: Sequence[str]) -> str:
     return done.stdout
 
 
-def markdown_rows(text: str, cells: int) -> list[list[str]]:
-    """Of the table in it, without the two lines of its head. Raises ValueError for another count of
-    cells, and where there is no row."""
-    lines = [line for line in text.splitlines() if line.startswith("|")][2:]
-    rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in lines]
-    if not rows or any(len(row) != cells for row in rows):
+def markdown_table(text: str, cells: int) -> tuple[list[str], list[list[str]]]:
+    """Head and rows of the table in it. Raises ValueError for another count of cells, and where
+    there is no row."""
+    lines = [line for line in text.splitlines() if line.startswith("|")]
+    head, *rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in lines] or [[]]
+    if len(rows) < 2 or any(len(row) != cells for row in (head, *rows[1:])):
         raise ValueError(f"got {lines[:1] or text[:80]}, expected a table of {cells} columns")
-    return rows
+    return head, rows[1:]  # without the rule

@@ -1,75 +1,23 @@
-"""The study of single parts beside what others publish, and beside simpler ways: memory, GPU and
-on-chip memory; codebooks; limits of tuning."""
+"""The study of single parts beside what others publish, simpler ways and limits."""
 
 from __future__ import annotations
 
 import argparse
 import math
 import pathlib
-import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 
 import tables
 from runs import run_arguments
-from runs.beside import beside, markdown_rows, printed
+from runs.beside import beside, markdown_table, printed
 from runs.files import read_json
-from runs.scenes import REPOSITORY, Scene, find_scenes, program_provenance, shared_names
+from runs.scenes import REPOSITORY, program_provenance
+from studies.bench_validation import SCENES, make_codebooks, make_precision
 from studies.gpu_validation import make_gpu
 from studies.memory_validation import make_memory
-from tables import SCENE, VIEW, Column, Spread, Study
+from tables import Column, Study
 
 TECHNOLOGY = REPOSITORY / "testbench" / "cost" / "technology_32nm.json"
-QUANTISED_SCENES = ("truck", "playbot", "platform", "yard")
-
-CODEBOOKS = (
-    "plain k-means",
-    *(f"ours, weighed by {what}" for what in ("sizes alone", "the other views", "all views")),
-)
-QUANTISATION_COLUMNS = (
-    SCENE,
-    Column("SH degree", "of the scene"),
-    Column("codebooks", "how they were made"),
-    VIEW,
-    Column("PSNR dB", "of the decoded scene's picture against the given scene's", "dB", ".1f"),
-)
-
-
-def quantisation_rows(text: str) -> list[tuple]:
-    """Of each scene the picture of each view with each kind of codebooks. Raises ValueError."""
-    rows = []
-    for scene, degree, *found in markdown_rows(text, 2 + 2 * len(CODEBOOKS)):
-        for kind, decibels in zip(CODEBOOKS, found[::2]):
-            for view, of_view in enumerate(decibels.split()):
-                rows.append((scene, int(degree), kind, view, float(of_view)))
-    return rows
-
-
-def make_codebooks(arguments: argparse.Namespace) -> None:
-    program = beside(arguments.streaminggs, "bench_quantisation")
-    here = [name for name in QUANTISED_SCENES if name in shared_names()]
-    scenes = find_scenes(arguments.scenes or here, arguments.cameras)
-    with tempfile.TemporaryDirectory() as folder:
-        specs = [with_cameras(scene, pathlib.Path(folder)) for scene in scenes]
-        rows = quantisation_rows(printed(program, specs))
-    # It tells no commit: it is of the build that it stands in.
-    by = tables.made(program, [program_provenance(arguments.streaminggs)], scenes)
-    spread = Spread("view", "{PSNR dB}")
-    said = "Headings are views; cells are PSNR in dB."
-    tables.write(
-        arguments.out, "quantisation", by, QUANTISATION_COLUMNS, rows, said, spread=spread
-    )
-
-
-def with_cameras(scene: Scene, folder: pathlib.Path) -> str:
-    """The scene as benchmarks take it: its cameras beside it by the same name."""
-    if not scene.cameras:
-        return scene.spec
-    spec = pathlib.Path(scene.spec).absolute()
-    place = folder / f"{scene.name}{spec.suffix}"
-    place.symlink_to(spec)
-    place.with_suffix(".json").symlink_to(pathlib.Path(scene.cameras).absolute())
-    return str(place)
-
 
 BEYOND = "would get larger, farther or brighter than a scene may hold"
 LIMIT_COLUMNS = (
@@ -96,7 +44,7 @@ def factor(text: str) -> float | None:
 
 def limit_rows(text: str) -> Iterator[tuple]:
     """Raises ValueError."""
-    for scene, rates, first, last, best, completes, stops, kept in markdown_rows(text, 8):
+    for scene, rates, first, last, best, completes, stops, kept in markdown_table(text, 8)[1]:
         of_best, _, best_loss = best.partition(": ")
         stops_at, _, message = stops.partition(": ")
         yield (
@@ -167,12 +115,13 @@ PARTS: Mapping[str, Callable[[argparse.Namespace], None]] = {
     "gpu": make_gpu,
     "sram": make_sram,
     "codebooks": make_codebooks,
+    "precision": make_precision,
     "tuning": make_tuning,
 }
 
 
 def add_arguments(to: run_arguments.Parser) -> None:
-    run_arguments.add_scenes(to, f"{', '.join(QUANTISED_SCENES)} for codebooks, all real for gpu")
+    run_arguments.add_scenes(to, f"{', '.join(SCENES)} for pictures, all real ones for gpu")
     run_arguments.add_side_by_side(to)
     to.add_argument("--parts", nargs="+", choices=PARTS, default=list(PARTS), help="to measure")
     to.add_argument("--requests", type=int, default=100_000, help="to the memory, of a stream")
@@ -194,9 +143,11 @@ VALIDATION = Study(
   gpu        gpu_checks: the model of the GPU beside published rates and shares
   sram       sram_formula: the formula of on-chip memory beside the memories that it is fitted to
   codebooks  quantisation: pictures from codebooks beside plain k-means
+  precision  blending_precision: pictures of each arithmetic of blending beside double
   tuning     tuning_limits: up to which learning rates hard scenes are tuned
 
-Needs tb_dram, bench_quantisation and tuning_limits beside the command, as a whole build has them.
+Needs tb_dram, bench_quantisation, bench_precision and tuning_limits beside the command, as a whole
+build has them.
 """,
     ("results.py validation",),
     add_arguments,

@@ -307,13 +307,15 @@ class WithTheCommand(InFolder):
                 self.assertEqual(made.count(text), count, f"{text} in\n{made}")
 
     def test_parts_stand_beside_others(self):
-        if not pathlib.Path(COMMAND).with_name("bench_quantisation").exists():
-            self.skipTest("bench_quantisation is not built")
+        benches = ("bench_quantisation", "bench_precision")
+        if not all(pathlib.Path(COMMAND).with_name(name).exists() for name in benches):
+            self.skipTest("benchmarks are not built")
         self.check_validation(
             {
                 "gpu": {"| time of sort and ranges | % | 21 |": 1, "| truck, 64x36 |": 4},
                 "sram": {"| Horowitz, 45 nm | 1024 x 64 bit |": 1},
                 "codebooks": {"| truck | 0 | plain k-means |": 1, "| truck | 0 | ours, ": 3},
+                "precision": {"| scene | float | pixels in half |": 1},
                 "tuning": {"| yes |": 14},
             }
         )

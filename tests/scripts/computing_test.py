@@ -17,6 +17,7 @@ from runs.scenes import REPOSITORY, Failure, Scene, find_scene, find_scenes
 from runs.simulations import pareto_front
 from studies import (
     areas,
+    bench_validation,
     cases,
     choices,
     frame_costs,
@@ -733,14 +734,22 @@ class Validation(unittest.TestCase):
                 self.assertEqual(len(of["gb_s"]), len(memory_validation.STREAMS))
 
     def test_pictures_of_codebooks(self):
-        head = "PSNR\n| scene |\n| --- |\n"
+        kinds = (f" {kind}, dB | s |" for kind in ("plain", "a, b", "c", "d"))
+        head = f"PSNR\n| scene | SH degree |{''.join(kinds)}\n| --- |\n"
         line = "| a | 3 | 1.5 2.5 | 9.0 | 3 4 | 9 | 5 6 | 9 | 7 8 | 9 |"
-        rows = validation.quantisation_rows(head + line)
-        self.assertEqual(len(rows), 2 * len(validation.CODEBOOKS))
-        self.assertEqual(rows[1], ("a", 3, "plain k-means", 1, 2.5))
-        self.assertEqual(rows[-1], ("a", 3, "ours, weighed by all views", 1, 8))
+        rows = bench_validation.quantisation_rows(head + line)
+        self.assertEqual(len(rows), 2 * 4)
+        self.assertEqual(rows[1], ("a", 3, "plain", 1, 2.5))
+        self.assertEqual(rows[3], ("a", 3, "a, b", 1, 4))
         with self.assertRaisesRegex(ValueError, "expected a table of 10 columns"):
-            validation.quantisation_rows(head + "| a | 3 |")
+            bench_validation.quantisation_rows(head + "| a | 3 |")
+
+    def test_pictures_of_arithmetics(self):
+        head = f"PSNR\n| view | {' | '.join('abcdef')} |\n| --- |\n"
+        cells = " | ".join(f"{at}.5, {at}.6" for at in range(6))
+        rows = bench_validation.precision_rows(f"{head}| a b 3 | {cells} |\n")
+        self.assertEqual(len(rows), 6 * 2)
+        self.assertEqual(rows[3], ("a b", 3, "b", "reached by the ellipse", 1.6))
 
     def test_programs_beside_the_command(self):
         line = "/x/tb_dram: not there; scripts/setup.sh release tb_dram builds it"
@@ -761,7 +770,8 @@ class Validation(unittest.TestCase):
             (("none", "10^0: why", "yes"), (None, 1, "why", True)),
         ):
             with self.subTest(cells):
-                (found,) = validation.limit_rows("| scene |\n|---|\n" + row.format(*cells))
+                head = f"{'| x ' * 8}|\n|---|\n"
+                (found,) = validation.limit_rows(head + row.format(*cells))
                 self.assertEqual(found, ("s", "all", 0.1, 0.2, 10, 0.3, *expected))
 
     def test_the_formula_of_memories(self):
