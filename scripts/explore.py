@@ -65,6 +65,7 @@ from exploring.axes import (
     parse_axes,
     read_points,
     sizes_memory,
+    with_own,
 )
 from exploring.judging import SMALL, SMALL_SIZE, Judge, Task, relative_to
 from exploring.measures import Objective, objective, requirement, shown

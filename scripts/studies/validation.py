@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import math
-import pathlib
 from collections.abc import Callable, Iterator, Mapping
 
 import tables

@@ -11,7 +11,16 @@ from unittest import mock
 import in_folder  # noqa: F401, isort: skip (finds the scripts)
 import results
 from exploring import measures
-from exploring.axes import Axis, Space, of_scene, parse_axes, parse_axis, read_points
+from exploring.axes import (
+    Axis,
+    Space,
+    axis,
+    of_scene,
+    parse_axes,
+    parse_axis,
+    read_points,
+    with_own,
+)
 from runs import beside, simulations
 from runs.scenes import REPOSITORY, Failure, Scene, find_scene, find_scenes
 from runs.simulations import pareto_front
@@ -266,6 +275,14 @@ class Spaces(unittest.TestCase):
         self.assertEqual(set(both.neighbours((0, 1))), {(1, 1), (0, 0), (0, 2)})
         setting = ("hfus=4", "group_width_px=64", "group_height_px=16")
         self.assertEqual(both.assignments((1, 1)), setting)
+
+    def test_a_search_can_begin_at_the_preset_itself(self):
+        given = (axis("hfus", 1, 2, 4), axis("hfu.lanes", 3, 2, 1), axis("fetch", "a", "b"))
+        given += (axis("sram.bytes", 1, 9), axis("clusters", 1, 2))
+        config = {"hfus": 3, "hfu": {"lanes": 5}, "fetch": "c", "sram": {"bytes": 5}, "clusters": 2}
+        values = [[s.partition("=")[2] for (s,) in a.settings] for a in with_own(given, config)]
+        self.assertEqual(values[:2], [["1", "2", "3", "4"], ["5", "3", "2", "1"]])
+        self.assertEqual(values[2:], [["a", "b"], ["1", "9"], ["1", "2"]])
 
     def test_axes_of_a_machine_stand_behind_those_that_are_named(self):
         given = (Axis("hfus", (("hfus=1",),)), Axis("clusters", (("clusters=1",), ("clusters=2",))))

@@ -296,7 +296,7 @@ class Exploring(Explorations):
             (
                 ("--machine", "paper", "--config", "exact"),
                 "--machine paper: got --config exact, which has no storage.encoding; "
-                "expected paper_no_vq or .*",
+                "expected paper_text_no_vq or .*",
             ),
             (
                 (*beside, "by hand: hfus=4"),
