@@ -141,8 +141,8 @@ training_summary, a line for each training. One training at a time; its seconds 
 them.
 """,
     (
-        "results.py training_curves lego --train-steps 8000 --same-bits 1000",
-        "results.py training_curves desk --train-steps 8000 --seeds 1",
+        "results.py training_curves lego --train-steps 5000 --gaussians 300000 --seeds 1 "
+        "--same-bits 200",
     ),
     add_curve_arguments,
     make_training_curves,
@@ -228,7 +228,7 @@ def make_boundary_study(arguments: argparse.Namespace) -> None:
     calls, kept, sources = subjects.begin(arguments, (subjects.PAPER,))
     cases, fittings = [], []
     for subject in subjects.find_subjects(sources, arguments, kept):
-        preset = subjects.voxel_of_preset(binary, subject.scene)
+        preset = subjects.voxel_of(arguments, subject.scene)
         for factor in arguments.voxels:
             for beta in arguments.betas:
                 cases.append((subject.name, factor * preset, factor, beta))
@@ -252,12 +252,11 @@ the first step to the last. With --misordered-in pixel they are boundary_pixel_s
 boundary_pixel.
 """,
     (
-        "results.py boundary_study lego truck --size 400x225 --train-steps 8000 "
-        "--paper-set vsu.visit_gaussians=0",
-        "results.py boundary_study platform yard --size 240x135 "
-        "--paper-set vsu.visit_gaussians=0",
-        "results.py boundary_study truck --size 400x225 --paper-set vsu.visit_gaussians=0 "
-        "--misordered-in pixel --betas 0.5 5 50 500 --voxels 1",
+        "results.py boundary_study lego --train-steps 5000 --gaussians 300000 --voxel 0.4 "
+        "--steps 1000 --voxels 1 --betas 0.05",
+        "results.py boundary_study truck --size 400x225 --steps 1000 --voxels 1",
+        "results.py boundary_study truck --size 400x225 --steps 1000 --voxels 1 "
+        "--misordered-in pixel --betas 0.5 50",
     ),
     add_boundary_arguments,
     make_boundary_study,

@@ -292,7 +292,7 @@ def make_quality_table(arguments: argparse.Namespace) -> None:
     check_views(binary, sources, arguments.view)
     rows, machine_rows, measured = [], [], []
     for subject in subjects.find_subjects(sources, arguments, kept):
-        voxel = subjects.voxel_of_preset(binary, subject.scene)
+        voxel = subjects.voxel_of(arguments, subject.scene)
         stages = stages_of(subject, kept, calls, voxel, arguments)
         judged = JudgedFrames(
             arguments, target_pictures(arguments, subject), arguments.side_by_side
@@ -333,12 +333,10 @@ reference pictures of the same scene after as many steps at the same rates in th
 price and without codebooks.
 """,
     (
-        "results.py quality_table lego truck --size 400x225 --train-steps 8000 --prices 0.03 "
-        "--paper-set vsu.visit_gaussians=0",
-        "results.py quality_table desk --size 240x135 --train-steps 8000 --prices 0.03 "
-        "--downscale 2 --gaussians 50000 --paper-set vsu.visit_gaussians=0",
-        "results.py quality_table platform yard --size 240x135 --prices 0.03 "
-        "--paper-set vsu.visit_gaussians=0",
+        "results.py quality_table lego --train-steps 5000 --gaussians 300000 --voxel 0.4 "
+        "--steps 1000 --quantised-steps 1000 --prices 0.03 --view 0,10,20,30,40",
+        "results.py quality_table 'builtin:capture?n=1000000' truck --size 400x225 --steps 1000 "
+        "--quantised-steps 1000 --prices 0.03",
     ),
     add_quality_arguments,
     make_quality_table,
@@ -370,7 +368,7 @@ def make_voxel_study(arguments: argparse.Namespace) -> None:
     check_views(binary, sources, arguments.view)
     rows, measured = [], []
     for subject in subjects.find_subjects(sources, arguments, kept):
-        preset = subjects.voxel_of_preset(binary, subject.scene)
+        preset = subjects.voxel_of(arguments, subject.scene)
         voxels = [factor * preset for factor in arguments.voxels]
         tuned = kept.all([calls.boundary(subject, voxel, arguments.beta) for voxel in voxels])
         targets = target_pictures(arguments, subject)
@@ -401,7 +399,7 @@ energy of paper order with raw second halves, before and after boundary-aware tu
 half to four times the preset's. Frames are those of quality_table, and so is what they are compared
 with. Makes voxel_study, and its figure, voxel_size.
 """,
-    ("results.py voxel_study truck --size 240x135 --paper-set vsu.visit_gaussians=0",),
+    ("results.py voxel_study truck --size 240x135 --steps 1000",),
     add_voxel_arguments,
     make_voxel_study,
 )

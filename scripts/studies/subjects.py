@@ -151,6 +151,10 @@ def set_words(settings: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(word for setting in settings for word in ("--set", setting))
 
 
+def voxel_of(arguments: argparse.Namespace, scene: str) -> float:
+    return arguments.voxel or voxel_of_preset(arguments.streaminggs, scene)
+
+
 def voxel_of_preset(binary: pathlib.Path, scene: str) -> float:
     """World units that the preset of paper order takes for the scene as given. Tuned, a scene would
     get others by the preset's rule."""
@@ -191,6 +195,13 @@ def add_arguments(to: run_arguments.Parser) -> None:
     )
     add_training_arguments(to)
     add_seed(to)
+    to.add_argument(
+        "--voxel",
+        type=float,
+        default=0,
+        metavar="SIDE",
+        help="of paper order, world units; 0: as its preset has it for the scene as given",
+    )
     to.add_argument("--steps", type=int, default=3_000, help="of tuning for an order")
     to.add_argument(
         "--misordered-in", choices=("group", "pixel"), default="group", help="as of tune"
