@@ -28,8 +28,8 @@ holds is not judged at all. No other one beats what is on the front in what is t
 where pictures differ by 0.1 dB or more, in PSNR.
 
 Simulations are kept in explore_runs.jsonl: interrupted or started again it goes on where it ended.
-Writes explore.csv, a line for each configuration, explore.json, what its columns mean and what made
-it, and exploration.svg and .png, whose axes are what was required; filter_units.svg
+Writes explore.csv, a line for each configuration, explore.json, what its columns mean, what made it,
+how many were judged and how a search ended, and exploration.svg and .png, whose axes are what was required; filter_units.svg
 and .png where CFUs and FFU lanes are all that differs. For one objective explore_best.json is the
 best as a configuration, explore_best_SCENE.json where scenes have their own; the last line has the
 command that simulates it. Where min(fps) is required, the best's watts at that rate are told. Where
@@ -70,7 +70,7 @@ from exploring.axes import (
 from exploring.judging import SMALL, SMALL_SIZE, Judge, Task, relative_to
 from exploring.measures import Objective, objective, requirement, shown
 from exploring.of_best import area_band, power_at_rate
-from exploring.record import Record, Work
+from exploring.record import BY_ITSELF, Record, Work
 from exploring.steps import Steps
 from runs import run_arguments
 from runs.files import write_text
@@ -292,6 +292,8 @@ def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Seque
             Steps(work).search()
         else:
             explore_all(work)
+        if arguments.search:
+            work.made.ended = work.made.ended or BY_ITSELF
         kept.end()
         complete = True
     finally:

@@ -23,14 +23,24 @@ from tables import Column
 NOT_DRAWN = "not all views drawn"
 PICTURE = "min(psnr_db)"
 SETTING = "what was simulated, by its key"
+# How a search ends; of a grid all is judged.
+BY_ITSELF, BY_TIME, BY_TRIALS = "by itself", "by time", "by trials"
+LONGER = "a longer search may find a better machine"
+ENDS = {
+    BY_ITSELF: "The search ended by itself.",
+    BY_TIME: f"Time ended the search (--minutes): {LONGER}.",
+    BY_TRIALS: f"Trials ended the search (--trials): {LONGER}.",
+}
 
 
 class Record:
     """For several threads."""
 
     def __init__(self, task: Task, names: Mapping[Assignments, str]):
-        """names: of configurations that were given by name. remarks: what is to be said of all."""
+        """names: of configurations that were given by name. remarks: what is to be said of all.
+        ended: how a search did; empty: it goes on, or is none."""
         self.task, self.names = task, names
+        self.ended = ""
         self.remarks: list[str] = []
         self.lock = threading.Lock()
         self.judged: dict[Assignments, Judged] = {}
@@ -141,6 +151,8 @@ class Record:
         text = f"{len(self.told())} configurations"
         text += f", of which {how_many_hold(held)} {required}" if required else ""
         said = [f"{text}; {len(self.front())} of them no other one beats." if held else f"{text}."]
+        if self.ended:
+            said[0] += f" {ENDS[self.ended]}"
         if held and required and (left := len(self.open_yet())):
             said.append(f"Not judged on all views, though none is missed so far: {left}.")
         if self.shows_pictures():
@@ -163,7 +175,9 @@ class Record:
         scenes = dict.fromkeys(scene for scene, _ in self.task.views)
         by = tables.made(program, [judged.provenance for judged in self.told()], scenes)
         only = {"holds": "yes" if self.task.requirements else "", "front": "yes"}
-        tables.write(out, name, by, self.columns(rows), rows, remark + self.about(), only=only)
+        search = {"judged": len(rows), "ended": self.ended}
+        about = remark + self.about()
+        tables.write(out, name, by, self.columns(rows), rows, about, only=only, more=search)
 
     def nearest(self) -> Judged | None:
         """Of those that miss what is required the one that misses it least."""
@@ -247,9 +261,16 @@ class Work:
     began: float = dataclasses.field(default_factory=time.monotonic)
     reporting: threading.Lock = dataclasses.field(default_factory=threading.Lock)
 
-    def has_time(self) -> bool:
+    def may_look(self, looked: float, most: float) -> bool:
+        """Whether there are time and trials for another one; else that is what ends the search."""
         minutes = self.arguments.minutes
-        return not minutes or time.monotonic() - self.began < 60 * minutes
+        if minutes and time.monotonic() - self.began >= 60 * minutes:
+            self.made.ended = BY_TIME
+            return False
+        if looked >= most:
+            self.made.ended = BY_TRIALS
+            return False
+        return True
 
     def most(self) -> float:
         """How many configurations are looked at."""

@@ -353,15 +353,16 @@ def explore(work: Work, program: str) -> None:
         """Whether there is more to do; if so what is next may be in the queue, else the sampler
         proposes it."""
         nonlocal under_way
-        if not work.has_time():
-            return False
         if study.whole:
             return True
         with work.reporting:
             trials = study.trials()
             seen = {study.at_of(trial) for trial in trials}
             drawn = under_way + sum(map(counts, study.done().values()))
-            if drawn >= of or len(seen) >= work.space.size() or len(trials) >= MOST_PROPOSED * of:
+            if len(seen) >= work.space.size():
+                return False
+            proposed = len(trials) / MOST_PROPOSED
+            if not work.may_look(max(drawn, proposed), of):
                 return False
             under_way += 1
             if len(trials) % SAMPLED_EVERY and (near := searcher.next_to_the_front(study)):

@@ -96,7 +96,7 @@ class Steps:
 
     def may_draw(self, at: At) -> bool:
         if at not in self.looked:
-            if not self.work.has_time() or len(self.looked) >= self.work.most():
+            if not self.work.may_look(len(self.looked), self.work.most()):
                 return False
             self.looked[at] = 0
         return True

@@ -10,7 +10,7 @@ import statistics
 from collections.abc import Mapping, Sequence
 
 import tables
-from exploring.record import SETTING
+from exploring.record import ENDS, SETTING
 from runs import run_arguments
 from runs.keeper import swept
 from runs.scenes import Scene, find_scenes
@@ -59,6 +59,10 @@ SCENES = (
     *(CYCLES, FPS, JOULES, MM2, *DECIBELS),
     Column("binds", "the busiest of the views, its share of the frame, and what holds it"),
 )
+SEARCH = (
+    Column("judged", "machines that the search judged; empty: a preset", "", "d"),
+    Column("ended", "how the search did; by time or trials: a longer one may find a better one"),
+)
 SUMMARY = (
     *(Column("size px", SIZE.meaning, "px"), MACHINE, MM2),
     Column("bus MB", "on the bus, a frame", "MB", ".1f"),
@@ -69,6 +73,7 @@ SUMMARY = (
     Column("PSNR dB, most", DECIBELS[1].meaning, "dB", ".1f"),
     Column(f"faster than {BESIDE}, least", "its cycles over these, of all views", "", ".2f"),
     Column(f"faster than {BESIDE}, most", "its cycles over these, of all views", "", ".2f"),
+    *SEARCH,
 )
 FRONT = (
     Column("order", "of what it was found for"),
@@ -95,6 +100,20 @@ class Machine:
         if not self.preset and not path.exists():
             raise ValueError(f"--found {self.name}: {path} is not there; explore.py makes it")
         return self.preset or str(path)
+
+    def search(self) -> tuple:
+        """Cells of SEARCH. Raises ValueError, OSError."""
+        return (None, "") if self.preset else search_of(self.folder)
+
+
+def search_of(folder: pathlib.Path) -> tuple[int, str]:
+    """How many the search of an exploration judged, and how it ended. Raises ValueError, OSError."""
+    facts = tables.facts_of(folder, "explore")
+    if facts.get("ended") not in ENDS:
+        raise ValueError(
+            f"{folder}/explore.json: got no 'ended', expected that of an exploration with --search"
+        )
+    return facts["judged"], facts["ended"]
 
 
 def view_row(size: str, scene: str, machine: str, view: dict) -> tuple:
@@ -196,6 +215,7 @@ def make_fair_fight(arguments: argparse.Namespace) -> None:
     points = [
         point for order, folder in folders.items() for point in tried(order, pathlib.Path(folder))
     ]
+    searches = {machine: machine.search() for machine in machines}
     asked = [(size, m, s) for size in arguments.sizes for m in machines for s in scenes]
     runs = [Run(s, arguments.view, size, m.config(s)) for size, m, s in asked]
     outcomes = swept(arguments, "fair_fight", runs)
@@ -220,7 +240,8 @@ def make_fair_fight(arguments: argparse.Namespace) -> None:
             names = [(size, machine.name, s.name) for s in scenes]
             beside = [views.get((size, f"preset {BESIDE}", s.name), ()) for s in scenes]
             all_db = [value for name in names for value in db[name]]
-            rows.append(summary_row(size, machine.name, [views[n] for n in names], beside, all_db))
+            row = summary_row(size, machine.name, [views[n] for n in names], beside, all_db)
+            rows.append((*row, *searches[machine]))
     tables.write(arguments.out, "fair_fight_summary", by, SUMMARY, rows)
     rows = [(*point, best) for point, best in zip(points, near_front(points))]
     only = {"on the front": "yes"}
@@ -243,7 +264,8 @@ Makes
   fair_fight_views    of each size, scene, machine and view
   fair_fight_scenes   of each size, scene and machine: means over the views; the worst
                       frame rate
-  fair_fight_summary  of each size and machine: geometric means over the scenes of these
+  fair_fight_summary  of each size and machine: geometric means over the scenes of these;
+                      how many machines its search judged, and how that ended
   fair_fight_front    of all that was tried what no other one beats in picture,
                       bytes, time, energy and area, compared in steps of 5 % and 1 dB
 
@@ -277,6 +299,7 @@ SMALLEST_COLUMNS = (
     Column("which", "the slowest view"),
     Column("at the start: fps", "the same of the machine that the search began with", "1/s", ".0f"),
     Column("at the start: mm2", "its area", "mm2", ".2f"),
+    *SEARCH,
     Column("setting", "by key"),
 )
 
@@ -306,6 +329,7 @@ def smallest_row(size: str, folder: pathlib.Path) -> tuple:
         *(size, float(REQUIRED.fullmatch(rate)[3]), float(best["mm2"]), low, high, watts),
         *(1e3 * joules, float(best[rate]), best["slowest view"]),
         *(float(rows[0][rate]), float(rows[0]["mm2"])),
+        *search_of(folder),
         " ".join(f"{key}={best[key]}" for key in keys),
     )
 

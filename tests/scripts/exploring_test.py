@@ -50,6 +50,22 @@ class Exploring(Explorations):
         self.assertEqual(self.rows("explore.csv"), [self.HEAD, *rows])
         self.assertIn("2 configurations; 1 of them no other one beats.", done.stdout)
 
+    def test_how_a_search_ended(self):
+        words = ("--search", "steps", "--objectives", "mm2", "--require", "min(fps) >= 2")
+        body = 'SET.setdefault("hfus", "8"); finish()'  # where it begins
+        for more, judged, ended, said in (
+            ((*words, "--trials", "1"), 1, "by trials", "Trials ended the search (--trials): a"),
+            ((*words, "--minutes", "9"), 4, "by itself", "The search ended by itself."),
+            ((), 4, "", ""),
+        ):
+            done = self.explore(body, "--axis", "hfus=1,2,4,8", *more)
+            with self.subTest(more):
+                self.assertEqual(done.returncode, 0, done.stderr)
+                facts = json.loads((self.folder / "explore.json").read_text())
+                self.assertEqual((facts["judged"], facts["ended"]), (judged, ended))
+                self.assertIn(said, facts["about"])
+                self.assertIn(said, done.stdout)
+
     def test_memory_is_as_large_as_needed_unless_it_is_said(self):
         body = """
             with (HERE / "sram").open("a") as file:

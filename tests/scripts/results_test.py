@@ -365,12 +365,14 @@ class Pages(InFolder):
 class Smallest(InFolder):
     """Of explorations that are made up."""
 
+    ENDED = "by time"
     HEAD = ("hfus", "mm2", *found.SHOWN, "min(fps) >= 90", "slowest view", "front")
 
     def explored(self, *rows: tuple) -> str:
         columns = [Column(name, SETTING if name == "hfus" else "") for name in self.HEAD]
         by = Made("scripts/explore.py truck", ("abc",), ("0.2.0",), "p", {"truck.ply": "1"})
-        tables.save(self.folder / "explored", "explore", by, columns, rows)
+        search = {"judged": len(rows), "ended": self.ENDED}
+        tables.save(self.folder / "explored", "explore", by, columns, rows, more=search)
         return f"1280x720={self.folder / 'explored'}"
 
     START = (8, 6.5, 4, 0.04, 4.9, 9.5, 135, "truck 0", "")
@@ -390,7 +392,7 @@ class Smallest(InFolder):
         self.assertEqual(
             list(row.values()),
             ["1280x720", "90.0", "5.0", "3.8", "7.2", "2.5", "20.0", "90.8", "yard 1"]
-            + ["135.0", "6.5", "hfus=3"],
+            + ["135.0", "6.5", "3", "by time", "hfus=3"],
         )
         by = tables.facts_of(self.folder, "smallest_machine")["made"]
         self.assertEqual((by["commits"], by["inputs"]), (["abc"], {"truck.ply": "1"}))
@@ -405,6 +407,10 @@ class Smallest(InFolder):
                 status, line, _ = self.ended(SMALLEST_MACHINE, *words, "--out", str(self.folder))
                 self.assertEqual(status, 2)
                 self.assertIn(said, line)
+        with mock.patch.object(self, "ENDED", ""):
+            words = ("--found", self.explored(self.BEST), "--out", str(self.folder))
+        said = "explore.json: got no 'ended', expected that of an exploration with --search"
+        self.assertIn(said, self.ended(SMALLEST_MACHINE, *words)[1])
 
 
 class Stated(InFolder):

@@ -8,6 +8,7 @@ import itertools
 import json
 import math
 import pathlib
+import time
 import unittest
 
 from in_folder import COMMAND, InFolder, nightly  # isort: skip (finds the scripts)
@@ -16,7 +17,7 @@ from exploring import options
 from exploring.axes import ORDERS, Space, axis, keys_of, nearest, parse_axis
 from exploring.judging import SMALL, Judge, Judged, Task, relative_to
 from exploring.measures import objective, requirement
-from exploring.record import Record, Work
+from exploring.record import BY_TIME, BY_TRIALS, ENDS, Record, Work
 from exploring.steps import Steps
 from runs import simulations
 from runs.scenes import Scene
@@ -188,9 +189,21 @@ class Within(unittest.TestCase):
         self.assertEqual(stored(self.found(12, formulas=Bumpy())), ["8", "8"])
 
     def test_ends_when_it_has_had_its_trials(self):
-        formulas = Formulas()
-        self.found(4, formulas=formulas, trials=15)
-        self.assertLessEqual(len(set(formulas.drawn)), 2 * 15)
+        for trials, ended in ((15, BY_TRIALS), (None, "")):
+            formulas = Formulas()
+            work = searched(formulas, "geomean(cycles)", "mm2 <= 4", trials=trials)
+            with self.subTest(trials):
+                self.assertEqual(work.made.ended, ended)
+                self.assertLessEqual(len(set(formulas.drawn)), 2 * (trials or 1000))
+
+    def test_ends_when_time_is_over(self):
+        arguments = argparse.Namespace(trials=None, minutes=1)
+        made = Record(Task((), (), "", "", (), (objective("mm2"),), ()), {})
+        for gone, ended in ((59, ""), (61, BY_TIME)):
+            work = Work(arguments, SPACE, None, made, began=time.monotonic() - gone)
+            self.assertEqual(work.may_look(5, math.inf), not ended)
+            self.assertEqual(made.ended, ended)
+        self.assertIn(ENDS[BY_TIME], made.about())
 
     def test_growing_until_what_frames_tell_holds(self):
         before = dict(PRESET)
