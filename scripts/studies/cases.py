@@ -71,8 +71,13 @@ def check_machines(arguments: argparse.Namespace) -> None:
     """Before hours of simulation. Raises ValueError for what the program refuses to be told of, and
     for what would count twice."""
     run_arguments.check_once("--machines", arguments.machines)
+    check_channels(arguments, arguments.machines)
+
+
+def check_channels(arguments: argparse.Namespace, machines: Sequence[str]) -> None:
+    """The same of --channels with each of the machines."""
     run_arguments.check_once("--channels", arguments.channels)
-    for machine, channels in itertools.product(arguments.machines, arguments.channels):
+    for machine, channels in itertools.product(machines, arguments.channels):
         words = ["--config", machine, "--set", f"dram.channels={channels}"]
         answered(arguments.streaminggs, "describe", words, machine)
 

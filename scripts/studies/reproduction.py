@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import tables
 from runs import run_arguments
 from runs.keeper import swept
-from runs.scenes import Scene, find_scenes
+from runs.scenes import Scene, answered, find_scenes
 from runs.simulations import (
     MJ,
     Run,
@@ -24,7 +24,7 @@ from runs.simulations import (
     read_config,
 )
 from studies import subjects
-from studies.cases import model_all
+from studies.cases import check_channels, model_all
 from studies.claims import (
     NO_CGF,
     NO_VQ,
@@ -381,7 +381,17 @@ def synthetic_scenes(arguments: argparse.Namespace) -> list[Scene]:
     return [s if isinstance(s, Scene) else of_subject(next(trained)) for s in sources]
 
 
+def check_points(arguments: argparse.Namespace) -> None:
+    """Before hours of training and simulation. Raises ValueError."""
+    check_channels(arguments, (TEXT, IDEAL, OTHER))
+    run_arguments.check_once("--groups", arguments.groups)
+    for group in (*arguments.groups, arguments.waterfall_group):
+        words = ["--config", TEXT, *(w for s in group_assignments(group) for w in ("--set", s))]
+        answered(arguments.streaminggs, "describe", words, TEXT)
+
+
 def make_reproduction(arguments: argparse.Namespace) -> None:
+    check_points(arguments)
     by_kind = {
         REAL: find_scenes(arguments.real or (CAPTURE,)),
         SYNTHETIC: synthetic_scenes(arguments),

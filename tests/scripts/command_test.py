@@ -428,6 +428,7 @@ class WithTheCommand(InFolder):
             (COMPARE_MACHINES, ("--sizes", "64x36"), "--sizes: got only this, expected --object-"),
             (COMPARE_MACHINES, ("--machines", "nope"), "--config nope: no file"),
             (COMPARE_MACHINES, ("--channels", "3"), "dram.channels: got 3, expected a power"),
+            (REPRODUCTION, ("--channels", "0"), "dram.channels: got 0, expected "),
             (CHOICES, ("--view", "0,1"), "--view: got 0,1, expected the number of a camera"),
             (CHOICES, ("--size", "3"), "--size: got 3, expected WIDTHxHEIGHT in px"),
             (TIMING, ("--view", "7"), "--view: got '7'"),
