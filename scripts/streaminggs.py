@@ -105,6 +105,8 @@ def run(
     Raises ValueError for what the command refuses, Failure where a simulation ends badly or a frame
     is not the model's.
     """
+    check_text("size", size)
+    check_text("stereo", stereo)
     if cameras:
         found = Scene(pathlib.Path(scene).stem, str(scene), str(cameras))
     else:
@@ -141,6 +143,12 @@ def check_list(place: str, given: object) -> None:
         raise ValueError(f"{place}: got {given!r}, expected a list")
 
 
+def check_text(place: str, given: object) -> None:
+    """Raises ValueError for a number, as 0.064 in place of "ipd=0.064"."""
+    if not isinstance(given, str):
+        raise ValueError(f"{place}: got {given!r}, expected a text")
+
+
 def sweep(
     points: Sequence[Settings],
     scenes: Sequence[str | pathlib.Path],
@@ -174,6 +182,8 @@ def sweep(
     check_list("points", points)
     check_list("scenes", scenes)
     check_list("more", more)
+    check_text("size", size)
+    check_text("stereo", stereo)
     binary = pathlib.Path(program)
     found = find_scenes([str(scene) for scene in scenes], [str(cameras)] if cameras else [])
     cases = [

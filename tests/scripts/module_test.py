@@ -51,6 +51,12 @@ class Reports(unittest.TestCase):
         ):
             with self.subTest(said), self.assertRaisesRegex(ValueError, f"^{said}$"):
                 streaminggs.sweep(points, scenes)
+        for given, said in (({"stereo": 0.064}, "stereo: got 0.064"), ({"size": 64}, "size: got 64")):
+            with self.subTest(said):
+                with self.assertRaisesRegex(ValueError, f"^{said}, expected a text$"):
+                    streaminggs.run("builtin:object", **given)
+                with self.assertRaisesRegex(ValueError, f"^{said}, expected a text$"):
+                    streaminggs.sweep([], ["builtin:object"], **given)
         with self.assertRaisesRegex(ValueError, "^more: got 'config', expected a list$"):
             streaminggs.table([], more="config")
         with self.assertRaisesRegex(ValueError, "^hfus: got '24', expected a list$"):
