@@ -82,6 +82,8 @@ class Ends(InFolder):
         self.assertRegex(line, f"^{file_of(script)}: {expected_line}")
         self.assertEqual(status, expected_status)
         self.assertEqual(list(self.folder.glob("*/*.csv")), [])
+        out = self.folder / "out"
+        self.assertTrue(not out.exists() or any(out.iterdir()), "it left an empty folder")
 
     def test_of_every_script(self):
         file = self.folder / "file"
