@@ -258,6 +258,13 @@ def is_studied(arguments: argparse.Namespace) -> bool:
 
 
 def explore(arguments: argparse.Namespace) -> None:
+    try:
+        explore_checked(arguments)
+    except ValueError as error:
+        raise ValueError(options.in_its_recipe(arguments, str(error))) from error
+
+
+def explore_checked(arguments: argparse.Namespace) -> None:
     options.check_arguments(arguments)
     if is_studied(arguments):
         run_arguments.need("optuna", "python3-optuna")
@@ -277,6 +284,7 @@ def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Seque
     task = find_task(arguments, scenes, keys, fixed, config)
     options.check_search(arguments.search, task)
     task = with_decided(task, arguments.streaminggs, arguments.view, config)
+    options.check_measures(task, Judge(task, kept.outcomes))
     task = relative_to(task, kept.outcomes)
     judge = Judge(task, kept.outcomes)
     work = Work(arguments, space, judge, Record(task, beside))
@@ -320,7 +328,6 @@ def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Seque
 
 def main() -> int:
     arguments = options.parsed(options.parser(f"{__doc__}\n{measures.__doc__}"), sys.argv[1:])
-    arguments.config = arguments.config or options.default_config(arguments.machine)
     return run_arguments.main_of_tables(explore, arguments)
 
 

@@ -83,7 +83,7 @@ GEOMEAN, EACH, WORST = "geomean", "each", "worst"
 def number_at(view: dict, path: str) -> float:
     """A number of the report; a picture that is equal has PSNR without end. Raises ValueError."""
     if path in COMPUTED:
-        return COMPUTED[path](view)
+        return computed(view, path)
     if path.startswith("energy."):
         check_memory_known(view)
     value = value_at(view, path)
@@ -92,6 +92,36 @@ def number_at(view: dict, path: str) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ValueError(f"report.json has no number at '{path}'")
     return value
+
+
+def computed(view: dict, name: str) -> float:
+    """Raises ValueError where the machine has no such parts."""
+    try:
+        return COMPUTED[name](view)
+    except KeyError as error:
+        raise ValueError(f"report.json has nothing to count '{name}' of") from error
+
+
+# What a frame has here depends on what it draws.
+OF_THE_FRAME = ("dram.bytes_by_region.", "dram.bus_bytes_by_region.")
+
+
+def check_there(view: dict, path: str) -> None:
+    """Raises ValueError where reports have no number there; this one may have none yet (null)."""
+    if path in COMPUTED:
+        computed(view, path)
+        return
+    value: object = view
+    for key in path.split("."):
+        if not isinstance(value, dict) or key not in value:
+            break
+        value = value[key]
+    else:
+        if value is None or isinstance(value, (int, float)) and not isinstance(value, bool):
+            return
+    if not path.startswith(OF_THE_FRAME):
+        known = ", ".join([*NAMES, *COMPUTED, *WHOLE])
+        raise ValueError(f"got {path}, expected a number's path in report.json, or one of {known}")
 
 
 def by_scene(views: Views) -> dict[str, list[dict]]:
@@ -118,6 +148,10 @@ class Measure:
             scene: statistics.fmean(number_at(view, self.path) for view in of_scene)
             for scene, of_scene in by_scene(views).items()
         }
+
+    def is_by_its_path(self) -> bool:
+        """Whether a report has to be asked that there is such a number."""
+        return self.path not in NAMES.values() and self.path != "sram_bytes"
 
     def is_of_the_machine(self) -> bool:
         """Whether any frame tells it."""

@@ -6,10 +6,12 @@ from __future__ import annotations
 import argparse
 import os
 import pathlib
+import re
 from collections.abc import Iterable, Iterator, Sequence
 
 from exploring.axes import EACH, ORDERS, Assignments, Axis, Order, key_of, parse_named, scope_of
-from exploring.judging import Task
+from exploring.judging import Judge, Task
+from exploring.measures import check_there
 from runs import run_arguments
 from runs.files import read_json
 from runs.scenes import REPOSITORY
@@ -19,6 +21,7 @@ CONFIG = "exact"
 STEPS = "steps"
 SAMPLERS = ("tpe", "nsga2", "random")
 OBJECTIVES = "cycles,dram_bytes,sram_bytes,filter_lanes,mm2"
+MOST_MINUTES = 60 * 24 * 365
 RECIPES = pathlib.Path(__file__).resolve().parent / "recipes"
 
 
@@ -57,7 +60,8 @@ def parser(about: str | None) -> run_arguments.Parser:
     parser.add_argument("--size", default="", metavar="WxH", help="in px; default: the camera's")
     parser.add_argument(
         "--stereo",
-        default="",
+        type=said_eyes,
+        default=None,
         metavar="ipd=DISTANCE",
         help="a second eye beside each camera, in world units: a frame is two pictures",
     )
@@ -112,18 +116,41 @@ def parser(about: str | None) -> run_arguments.Parser:
     return parser
 
 
+def said_eyes(text: str) -> str:
+    """An empty one would drop those of a recipe unseen."""
+    if not text:
+        raise argparse.ArgumentTypeError("got nothing, expected ipd=DISTANCE")
+    return text
+
+
 def recipes() -> list[str]:
     return sorted(path.stem for path in RECIPES.glob("*.json"))
 
 
-def parsed(parser: argparse.ArgumentParser, words: Sequence[str]) -> argparse.Namespace:
-    """The words, and before them those of the recipe that --recipe names."""
-    if not (name := parser.parse_known_args(words)[0].recipe):
-        return parser.parse_args(words)
-    try:
-        return parser.parse_args([*recipe_words(name, words), *words])
-    except (ValueError, OSError) as error:
-        parser.error(f"--recipe: {error}")
+def parsed(parser: run_arguments.Parser, words: Sequence[str]) -> argparse.Namespace:
+    """The words, and before them those of the recipe that --recipe names; of_recipe: its options."""
+    name, of_recipe = parser.parse_known_args(words)[0].recipe, []
+    if name:
+        try:
+            of_recipe = list(recipe_words(name, words))
+        except (ValueError, OSError) as error:
+            parser.error(f"--recipe: {error}")
+        parser.place = f"--recipe {name}: "
+        parser.parse_args(of_recipe)
+        parser.place = ""
+    arguments = parser.parse_args([*of_recipe, *words])
+    arguments.of_recipe = {word.partition("=")[0] for word in of_recipe}
+    arguments.config = arguments.config or default_config(arguments.machine)
+    arguments.stereo = arguments.stereo or ""
+    return arguments
+
+
+def in_its_recipe(arguments: argparse.Namespace, refused: str) -> str:
+    """What is refused, with the recipe where it is an option of that."""
+    of_recipe = re.match(r"--[\w-]+", refused)
+    if of_recipe and of_recipe[0] in arguments.of_recipe:
+        return f"--recipe {arguments.recipe}: {refused}"
+    return refused
 
 
 def recipe_words(name: str, given: Sequence[str]) -> Iterator[str]:
@@ -156,6 +183,8 @@ def check_arguments(arguments: argparse.Namespace) -> None:
     if arguments.trials is not None:
         run_arguments.check_at_least("--trials", arguments.trials, 1)
     run_arguments.check_at_least("--minutes", arguments.minutes, 0)
+    if arguments.minutes > MOST_MINUTES:
+        raise ValueError(f"--minutes: got {arguments.minutes:g}, expected at most {MOST_MINUTES}")
     if arguments.minutes and not arguments.search:
         raise ValueError("--minutes: has no effect without --search")
     if arguments.trials is not None and not arguments.search:
@@ -229,6 +258,20 @@ def parse_beside(texts: Sequence[str]) -> dict[Assignments, str]:
 def values_of(assignments: Assignments) -> dict[str, str]:
     """By key; the last one counts."""
     return dict(assignment.split("=", 1) for assignment in assignments)
+
+
+def check_measures(task: Task, judge: Judge) -> None:
+    """Raises ValueError for a measure that no report of the machine has, by the smallest frame."""
+    asked = [("--objectives", o.measure) for o in task.objectives]
+    asked += [("--require", required.measure) for required in task.requirements]
+    asked += [("--show", measure) for measure in task.shown]
+    asked = [(option, measure.path) for option, measure in asked if measure.is_by_its_path()]
+    for view in judge.machine(()) if asked else ():
+        for option, path in asked:
+            try:
+                check_there(view, path)
+            except ValueError as error:
+                raise ValueError(f"{option}: {error}") from error
 
 
 def check_search(search: str, task: Task) -> None:

@@ -11,6 +11,7 @@ import sys
 import unittest
 
 from in_folder import REPOSITORY, InFolder  # isort: skip (finds the scripts)
+from exploring import measures
 from runs import run_arguments
 
 
@@ -132,7 +133,8 @@ class Exploring(Explorations):
     def test_what_is_required(self):
         """A configuration that has lost is drawn on no further view, and stands on no front."""
         body = """
-            (HERE / f"drawn {SET['hfus']} {sys.argv[sys.argv.index('--view') + 1]}").touch()
+            if "64x36" not in sys.argv:
+                (HERE / f"drawn {SET['hfus']} {sys.argv[sys.argv.index('--view') + 1]}").touch()
             finish()
             """
         cameras = self.scene.with_suffix(".json")
@@ -331,6 +333,25 @@ class Exploring(Explorations):
         points.write_text("hfus=2\nhfu.cfus=2\n")
         done = self.explore("finish()", "--points", str(points), "--set", "hfus=4")
         self.assertEqual([row[0] for row in self.rows("explore.csv")[1:]], ["2", "4"], done.stderr)
+
+    def test_measures_that_no_report_has_are_refused_first(self):
+        names = "fps, cycles, .*joules_mean"
+        for words, said in (
+            (("--objectives", "nosuch"), f"--objectives: got nosuch, expected .* {names}"),
+            (("--show", "cycles,frame.nosuch"), "--show: got frame.nosuch, expected .*"),
+            (("--require", "min(fsp) >= 90"), "--require: got fsp, expected a number's path .*"),
+            (("--show", "config.hfu"), "--show: got config.hfu, expected a number's path .*"),
+            (("--show", "filter_lanes"), "--show: report.json has nothing to count .*"),
+        ):
+            with self.subTest(words):
+                body = '"64x36" in sys.argv or (HERE / "drawn").touch(); finish()'
+                done = self.explore(body, "--axis", "hfus=2,4", *words)
+                self.assertRegex(done.stderr, rf"\A.*explore.py: {said}\n\Z")
+                self.assertEqual((done.returncode, (self.folder / "drawn").exists()), (2, False))
+        done = self.explore("finish()", "--axis", "hfus=2,4", "--show", "config.sram.input_bytes")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        # Regions of another frame may be others.
+        measures.check_there({}, "dram.bytes_by_region.spill.merge.read")
 
     def test_what_was_simulated_is_not_simulated_again(self):
         body = """

@@ -10,6 +10,7 @@ import math
 import pathlib
 import time
 import unittest
+from unittest import mock
 
 from in_folder import COMMAND, InFolder, nightly  # isort: skip (finds the scripts)
 import explore
@@ -403,20 +404,29 @@ class Recipes(InFolder):
 
     def test_what_is_no_recipe(self):
         path = self.folder / "mine.json"
+        of_it = "--recipe .*mine.json: "
         for text, said in (
-            (
-                None,
-                "got .*mine.json, expected a JSON file or one of exact_in_area, paper_in_area, ",
-            ),
-            ("[]", ".*mine.json: expected options by name"),
-            ('{"axis": [2]}', ".*mine.json: axis: got 2, expected a text or a list of them"),
+            (None, "--recipe: got .*mine.json, expected a JSON file or one of exact_in_area, "),
+            ("[]", "--recipe: .*mine.json: expected options by name"),
+            ('{"axis": [2]}', "--recipe: .*mine.json: axis: got 2, expected a text or a list of"),
+            ('{"nosuch": "5"}', f"{of_it}unrecognized arguments: --nosuch=5"),
+            ('{"search": "5"}', f"{of_it}--search: invalid choice: '5'"),
+            ('{"size": "5"}', f"{of_it}--size: got 5, expected WIDTHxHEIGHT"),
+            ('{"minutes": "1e99", "search": "steps"}', f"{of_it}--minutes: got 1e\\+99, expected"),
+            ('{"stereo": "ipd=1"}', "--stereo: got nothing, expected ipd=DISTANCE"),
         ):
+            eyes = ("--stereo", "") if text and "stereo" in text else ()
             with self.subTest(text):
                 if text:
                     path.write_text(text)
-                with self.assertRaises(SystemExit) as ended:
-                    self.ended(explore, str(self.scene), "--recipe", str(path))
-                self.assertEqual(ended.exception.code, 2)
+                words = ["explore.py", str(self.scene), "--recipe", str(path), *eyes]
+                words += ["--axis=hfus=1,2", "--out", str(self.folder / "out")]
+                err = io.StringIO()
+                with mock.patch("sys.argv", words), contextlib.redirect_stderr(err):
+                    with contextlib.suppress(SystemExit):
+                        self.assertEqual(explore.main(), 2)
+                self.assertRegex(err.getvalue(), rf"\Aexplore.py: {said}.*\n\Z")
+                self.assertFalse((self.folder / "out").exists())
 
     def test_the_command_line_counts(self):
         path = self.folder / "mine.json"
