@@ -32,7 +32,8 @@ Writes explore.csv, a line for each configuration, explore.json, what its column
 how many were judged and how a search ended, and exploration.svg and .png, whose axes are what was required; filter_units.svg
 and .png where CFUs and FFU lanes are all that differs. For one objective explore_best.json is the
 best as a configuration, explore_best_SCENE.json where scenes have their own; the last line has the
-command that simulates it. Where min(fps) is required, the best's watts at that rate are told. Where
+command that simulates it. With --stereo frames are judged alone, without the display's reads and
+rows; one more line has the command that draws them back to back for a display. Where min(fps) is required, the best's watts at that rate are told. Where
 no configuration holds what is required, the exit status is 3, and the last line says which bounds
 are missed and by how much the nearest one misses. Of what was interrupted or failed midway there
 are explore_partial.csv and .json.
@@ -81,6 +82,7 @@ from streaminggs import numbers
 from tables import draw_beside
 
 RUNS_FILE = "explore_runs.jsonl"
+CHECKED_FRAMES = 8  # of the best, back to back
 
 
 def machine_axes(
@@ -244,13 +246,35 @@ def path_of_best(arguments: argparse.Namespace, scene: str) -> pathlib.Path:
     return arguments.out / f"explore_best{scene}.json"
 
 
-def run_of_best(work: Work, scene: str) -> str:
-    """The command that simulates the best on the first view that it is for."""
+def run_of_best(work: Work, scene: str) -> Run:
+    """Of the best on the first view that it is for."""
     task = work.judge.task
     of, view = next(v for v in task.views if scene in ("", f"_{v[0].name}"))
     path = str(path_of_best(work.arguments, scene))
-    run = Run(of, str(view), task.size, path, stereo=task.stereo)
-    return shlex.join(["streaminggs", "simulate", *run.arguments()])
+    return Run(of, str(view), task.size, path, stereo=task.stereo)
+
+
+def stream_of(run: Run, rate: float) -> list[str]:
+    """The same machine with frames back to back, which a display reads at a rate; memories as large
+    as that needs."""
+    words = [run.scene.spec, *dataclasses.replace(run, fit_memories=True).configuration_arguments()]
+    words += ["--size", run.size] if run.size else []
+    words += ["--stereo", run.stereo, "--path", run.scene.cameras or "builtin:path"]
+    words += ["--frames", str(CHECKED_FRAMES), "--stream"]
+    return [*words, "--frame-rate", f"{rate:g}"] if rate else words
+
+
+def say_best(work: Work, scene: str) -> None:
+    """The command that simulates it; of two eyes, whose frames were judged alone, also as a headset
+    draws them."""
+    run = run_of_best(work, scene)
+    path = path_of_best(work.arguments, scene)
+    print(f"best: {path}: {shlex.join(['streaminggs', 'simulate', *run.arguments()])}")
+    if run.stereo:
+        rates = [r.bound for r in work.judge.task.requirements if r.is_a_rate()]
+        words = ["streaminggs", "simulate", *stream_of(run, max(rates, default=0))]
+        print(f"its frames were judged alone; back to back, for a display: {shlex.join(words)}")
+    sys.stdout.flush()
 
 
 def is_studied(arguments: argparse.Namespace) -> bool:
@@ -321,7 +345,7 @@ def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Seque
     draw_beside(arguments.out, "exploration", "filter_units")
     print(f"written to {arguments.out}")
     for scene in best:
-        print(f"best: {path_of_best(arguments, scene)}: {run_of_best(work, scene)}", flush=True)
+        say_best(work, scene)
     if said := work.made.none_holds():
         raise run_arguments.NoneHolds(said)
 

@@ -261,9 +261,11 @@ class Exploring(Explorations):
             finish()
             """
         for eyes in ((), ("--stereo", "ipd=1"), ("--stereo", "ipd=2"), ("--stereo", "ipd=1"), ()):
-            done = self.explore(body, "--axis", "hfus=2", *eyes)
+            done = self.explore(body, "--axis", "hfus=2", "--require", "min(fps) >= 1", *eyes)
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertEqual(" ".join(eyes) in done.stdout.splitlines()[-1], True)
+            self.assertIn(" ".join(eyes), done.stdout.splitlines()[-1])
+            path = f"--path {self.scene.with_suffix('.json')} --frames 8 --stream --frame-rate 1\n"
+            self.assertEqual(path in done.stdout, bool(eyes))
         drawn = (self.folder / "count").read_text()
         self.assertEqual(drawn, "\n--stereo ipd=1\n--stereo ipd=2\n")
 
