@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import concurrent.futures
 import dataclasses
+import functools
 import itertools
 import json
 import pathlib
@@ -15,10 +16,11 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import IO
 
 import tables
+from exploring.judging import SMALL
 from runs import run_arguments
 from runs.keeper import Keeper
 from runs.scenes import REFUSED, Failure, Scene, answered, call, find_scenes, said
-from runs.simulations import FIT_MEMORIES, MB, MJ, check_memory_known
+from runs.simulations import FIT_MEMORIES, MB, MJ, Run, check_memory_known, read_config
 from studies import headset_published
 from studies.headset_published import Setting
 from tables import SCENE, SIZE, Column, Study
@@ -28,8 +30,9 @@ HEADSET_SIZES = ("640x360", "2064x2208")
 RATES = (60, 72, 90, 120)
 TILE_PX = 16
 
-OURS, OTHERS = "exact", "gscore_lossless_boxes"
-GAIN = f"{OURS} / {OTHERS}"
+OTHERS = "gscore_lossless_boxes"
+OURS = ("exact", "exact_fast")  # the second has about the others' area
+LEAST_ENTRIES = 1024  # of a list on chip: shorter ones split the lists of large frames
 
 
 @dataclasses.dataclass(frozen=True)
@@ -51,15 +54,26 @@ def at_rate(rate: int) -> Way:
     return Way(f"two eyes at {rate}", 2, True, rate)
 
 
-def settings_of(machine: str, size: str, eyes: int) -> tuple[str, ...]:
-    """A machine at its best. GSCore's projects ahead, and has room for the lists of all tiles: of a
-    frame that takes several passes each reads the scene again."""
+@functools.cache
+def entries_of(binary: pathlib.Path, machine: str, size: str) -> int:
+    """Of a list on chip: as many as the preset chooses for a frame of one eye, or LEAST_ENTRIES.
+    Raises ValueError, Failure."""
+    run = Run(SMALL, size=size, config=machine, fit_memories=True)
+    return max(read_config(binary, run)["sorting"]["list_entries"], LEAST_ENTRIES)
+
+
+def settings_of(binary: pathlib.Path, machine: str, size: str, way: Way) -> tuple[str, ...]:
+    """A machine at its best. GSCore's has room for the lists of all tiles: of a frame that takes
+    several passes each reads the scene again. In a stream it projects the next frame ahead. Raises
+    ValueError, Failure."""
     if not machine.startswith("gscore"):
         return ()
     width, height = (-(-int(side) // TILE_PX) for side in size.split("x"))
-    tiles = eyes * width * height
+    tiles = way.eyes * width * height
     lists = (f"lists.tiles={tiles}", f"lists.lines={-(-tiles // 2)}")
-    return ("lists.sets=2", "sram.buffer_bytes=0", *lists, "sorting.list_entries=1024")
+    entries = f"sorting.list_entries={entries_of(binary, machine, size)}"
+    ahead = ("lists.sets=2",) if way.stream else ()
+    return (*ahead, "sram.buffer_bytes=0", *lists, entries)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -70,6 +84,7 @@ class Drawn:
     size: str
     channels: int
     machine: str
+    settings: tuple[str, ...]
     way: Way
     frames: int
     apart: float
@@ -78,8 +93,7 @@ class Drawn:
         path = self.scene.cameras or "builtin:path"
         words = [self.scene.spec, "--path", path, "--frames", str(self.frames)]
         words += ["--size", self.size, "--config", self.machine, FIT_MEMORIES]
-        settings = settings_of(self.machine, self.size, self.way.eyes)
-        words += [a for s in (*settings, f"dram.channels={self.channels}") for a in ("--set", s)]
+        words += [a for s in (*self.settings, f"dram.channels={self.channels}") for a in ("--set", s)]
         if self.way.eyes > 1:
             words += ["--stereo", f"ipd={self.apart}"]
         if self.way.stream:
@@ -133,8 +147,8 @@ def drawn_all(arguments: argparse.Namespace, of: Sequence[Drawn]) -> dict[Drawn,
 
 @dataclasses.dataclass(frozen=True)
 class Taken:
-    """By a frame of one eye or two, mean over the path. seconds: of frames behind the first, which
-    a stream's first frame has no other before."""
+    """By a frame of one eye or two, mean over the path behind its first frame, which in a stream has
+    no other before it; but for a stream's bytes and joules, which its report has of all frames."""
 
     seconds: float
     bytes: float
@@ -162,8 +176,8 @@ def taken(report: dict) -> Taken:
         check_memory_known(view)
     return Taken(
         statistics.fmean(view["frame"]["time_s"] for view in views[1:]),
-        statistics.fmean(view["dram"]["bytes"] for view in views),
-        statistics.fmean(view["energy"]["total_j"] for view in views),
+        statistics.fmean(view["dram"]["bytes"] for view in views[1:]),
+        statistics.fmean(view["energy"]["total_j"] for view in views[1:]),
         max(view["area_mm2"]["total"] for view in views),
         views[0]["dram"]["peak_gb_s"],
     )
@@ -178,7 +192,7 @@ CASE = (
 RATE_COLUMNS = (
     *CASE,
     Column("frames", "each alone, or the next begins while this one is drawn; of one eye or two"),
-    Column("frames/s", "of one eye or of two, mean over the path", "1/s", ".1f"),
+    Column("frames/s", "of one eye or of two, mean over the path but its first", "1/s", ".1f"),
     Column("ms", "of a frame, likewise", "ms", ".3f"),
     Column("MB", "requested of the DRAM for a frame", "MB", ".2f"),
     Column("mJ", "of a frame", "mJ", ".3f"),
@@ -196,14 +210,17 @@ SECOND_EYE_COLUMNS = (
 RATIO_COLUMNS = (
     SIZE,
     CASE[2],
+    Column("machine", f"preset, over {OTHERS}"),
     Column("frames", "as in the table of rates"),
-    Column("speed-up", f"{GAIN}, geometric mean over the scenes", "", ".2f"),
+    Column("speed-up", "geometric mean over the scenes", "", ".2f"),
     Column("speed-up of a scene, least", "of the scenes", "", ".2f"),
     Column("speed-up of a scene, most", "likewise", "", ".2f"),
-    Column("energy gain", f"joules of {OTHERS} over those of {OURS}, likewise", "", ".2f"),
+    Column("energy gain", f"joules of {OTHERS} over the machine's, likewise", "", ".2f"),
     Column("energy gain of a scene, least", "of the scenes", "", ".2f"),
     Column("energy gain of a scene, most", "likewise", "", ".2f"),
-    Column("area ratio", f"mm2 of {GAIN}", "", ".2f"),
+    Column("area ratio", "machine over the other", "", ".2f"),
+    Column("mm2", "of the machine, the largest of the scenes", "mm2", ".2f"),
+    Column("its mm2", "of the other, likewise", "mm2", ".2f"),
 )
 STATES = ("active", "precharged", "power_down", "self_refresh")
 POWER_COLUMNS = (
@@ -241,7 +258,9 @@ class Case:
     machine: str
 
     def drawn(self, way: Way, arguments: argparse.Namespace) -> Drawn:
-        case = (self.scene, self.size, self.channels, self.machine)
+        """Raises ValueError, Failure."""
+        settings = settings_of(arguments.streaminggs, self.machine, self.size, way)
+        case = (self.scene, self.size, self.channels, self.machine, settings)
         return Drawn(*case, way, arguments.frames, arguments.ipd)
 
     def cells(self, peak_gb_s: float) -> tuple:
@@ -266,7 +285,19 @@ def second_eye_row(case: Case, of: ByWay) -> tuple:
     )
 
 
-def ratio_row(size: str, way: Way, pairs: Sequence[tuple[Taken, Taken]]) -> tuple:
+def stereo_row(cases: Sequence[Case], of: Mapping[Case, ByWay]) -> tuple:
+    """cases: a machine's, of all scenes."""
+
+    def gain(two: Way, one: Way) -> float:
+        pairs = [(of[case][two], of[case][one]) for case in cases]
+        return statistics.geometric_mean(2 * b.seconds / a.seconds for a, b in pairs)
+
+    case, more = cases[0], max(of[c][PAIRS].mm2 - of[c][ALONE].mm2 for c in cases)
+    place = (case.size, of[case][ALONE].peak_gb_s, case.machine)
+    return (*place, gain(PAIRS, ALONE), gain(PAIRS_BACK_TO_BACK, BACK_TO_BACK), more, "")
+
+
+def ratio_row(size: str, machine: str, way: Way, pairs: Sequence[tuple[Taken, Taken]]) -> tuple:
     """pairs: ours and the other, of a scene each."""
 
     def ends(value: Callable[[Taken], float]) -> tuple[float, float, float]:
@@ -275,7 +306,8 @@ def ratio_row(size: str, way: Way, pairs: Sequence[tuple[Taken, Taken]]) -> tupl
 
     area = statistics.geometric_mean(ours.mm2 / other.mm2 for ours, other in pairs)
     speed, joules = ends(lambda t: t.seconds), ends(lambda t: t.joules)
-    return (size, pairs[0][0].peak_gb_s, way.name, *speed, *joules, area)
+    mm2 = (max(taken.mm2 for taken in of) for of in zip(*pairs))
+    return (size, pairs[0][0].peak_gb_s, machine, way.name, *speed, *joules, area, *mm2)
 
 
 def beside_rows(setting: Setting, peak_gb_s: float, ours: Mapping[str, Sequence[Taken]]) -> list:
@@ -356,20 +388,24 @@ def check_headset(arguments: argparse.Namespace) -> None:
     for rate in arguments.rates:
         run_arguments.check_at_least("--rates", rate, 1)
     for channels in arguments.channels:
-        words = ["--config", OURS, "--set", f"dram.channels={channels}"]
-        answered(arguments.streaminggs, "describe", words, OURS)
+        words = ["--config", OURS[0], "--set", f"dram.channels={channels}"]
+        answered(arguments.streaminggs, "describe", words, OURS[0])
 
 
 def make_headset(arguments: argparse.Namespace) -> None:
     check_headset(arguments)
     scenes = find_scenes(arguments.scenes or list(SCENES), arguments.cameras)
-    machines = (OURS, OTHERS)
-    # Small pictures first.
+    machines = (OURS[0], OTHERS)
+    # Small pictures first; only these of the machine of alike area.
+    of_places = {
+        place: machines if n else (*OURS, OTHERS)
+        for n, place in enumerate(itertools.product(arguments.sizes, arguments.channels))
+    }
     cases = [
-        Case(scene, size, channels, machine)
-        for size, channels, scene, machine in itertools.product(
-            arguments.sizes, arguments.channels, scenes, machines
-        )
+        Case(scene, *place, machine)
+        for place, drawn in of_places.items()
+        for scene in scenes
+        for machine in drawn
     ]
     rated = [case for case in cases if case.channels == arguments.channels[0]]
     ways = {case: list(WAYS) for case in cases}
@@ -396,8 +432,8 @@ def make_headset(arguments: argparse.Namespace) -> None:
     by = tables.made(arguments.streaminggs, provenances, scenes)
     about = (
         f"{arguments.frames} frames along the cameras of each scene, eyes {arguments.ipd:g} apart; "
-        f"{OTHERS} with two sets of lists, and room for those of all tiles. A frame of two eyes is "
-        "two pictures."
+        f"{OTHERS} with room for the lists of all tiles, in a stream for two sets of them. A frame of "
+        "two eyes is two pictures. Areas are not equal: they stand beside."
     )
     rows = [
         (*case.cells(t.peak_gb_s), way.name, *t.row())
@@ -409,23 +445,33 @@ def make_headset(arguments: argparse.Namespace) -> None:
     tables.write(arguments.out, "headset_second_eye", by, SECOND_EYE_COLUMNS, rows, about)
     rows = [
         ratio_row(
-            size,
+            place[0],
+            machine,
             way,
             [
-                tuple(of[Case(scene, size, channels, machine)][way] for machine in machines)
+                tuple(of[Case(scene, *place, each)][way] for each in (machine, OTHERS))
                 for scene in scenes
             ],
         )
-        for size in arguments.sizes
-        for channels in arguments.channels
+        for place, drawn in of_places.items()
+        for machine in drawn
+        if machine != OTHERS
         for way in WAYS
     ]
     tables.write(arguments.out, "headset_ratios", by, RATIO_COLUMNS, rows, about)
     rows = []
     for setting in headset_published.PUBLISHED:
         ours = {m: [taken(reports[drawn]) for drawn in beside[setting, m]] for m in machines}
-        rows += beside_rows(setting, ours[OURS][0].peak_gb_s, ours)
+        rows += beside_rows(setting, ours[OTHERS][0].peak_gb_s, ours)
     tables.write(arguments.out, "headset_published", by, headset_published.COLUMNS, rows, about)
+    rows = [
+        stereo_row([Case(scene, *place, machine) for scene in scenes], of)
+        for place, drawn in of_places.items()
+        for machine in drawn
+    ]
+    rows.append(headset_published.STEREO)
+    columns = headset_published.STEREO_COLUMNS
+    tables.write(arguments.out, "headset_stereo", by, columns, rows, about)
     rows = [
         power_row(case, rate, reports[case.drawn(at_rate(rate), arguments)])
         for case in rated
@@ -437,17 +483,19 @@ def make_headset(arguments: argparse.Namespace) -> None:
 
 HEADSET = Study(
     "headset",
-    f"""What a headset asks of {OURS} and {OTHERS}: frames of a path alone and back to back, of one eye and of
-two, by size and bandwidth; two eyes at the rates of a display. Makes
+    f"""What a headset asks of {OURS[0]} and {OTHERS}: frames of a path alone and back to back, of one eye and
+of two, by size and bandwidth; two eyes at the rates of a display. {OURS[1]}, which has about the
+same area, is drawn at the first size and bandwidth. Makes
 
   headset_rates       frames a second, bytes, joules and area of a frame each way
   headset_second_eye  what the second eye adds to the first: bytes, cycles, joules, area
-  headset_ratios      {GAIN} each way, over the scenes
+  headset_ratios      speed, energy and area over {OTHERS} each way, over the scenes
   headset_published   rates back to back beside those of Nebula and Neo, and what differs
+  headset_stereo      two eyes over two frames of one eye, beside Nebula's on GSCore
   headset_power       watts by state of the memory, latency, at rates of a display
 
-Each machine is at its best, with all of it charged: GSCore's projects a frame while the one before
-it is drawn, and has room for the lists of all tiles of both eyes.
+Each machine is at its best, with all of it charged: GSCore's has room for the lists of all tiles of
+both eyes, and in a stream projects a frame while the one before it is drawn.
 """,
     ("results.py headset",),
     add_headset_arguments,

@@ -43,6 +43,19 @@ PUBLISHED: dict[Setting, tuple[Published, ...]] = {
         Published("GSCore, by Neo", 15.8, 1743, f"{SCENES}; a trace, colours take no time"),
     ),
 }
+STEREO_COLUMNS = (
+    SIZE,
+    Column("GB/s", "peak of the DRAM", "GB/s", ".1f"),
+    Column("machine", "preset, or as published"),
+    Column("speed-up", "two eyes over two frames of one eye, frames alone", "", ".2f"),
+    Column("speed-up, back to back", "likewise", "", ".2f"),
+    Column("mm2 more", "area that two eyes add", "mm2", ".2f"),
+    Column("what differs", "of what is published: what is not comparable"),
+)
+STEREO = (
+    *(HEADSET.size, HEADSET.channels * 6.4, "Nebula's, on GSCore", 1.7, None, 0.25),
+    f"{SCENES}, of levels of detail; both pictures as drawn alone, as here",
+)
 COLUMNS = (
     Column("eyes", "that a frame is drawn for", "", "d"),
     SIZE,

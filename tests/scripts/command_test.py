@@ -238,7 +238,7 @@ class WithTheCommand(InFolder):
         self.assertEqual(status, 0, line)
         rows = tables.read_rows(self.folder, "headset_rates")
         machines = {row["machine"] for row in rows}
-        self.assertEqual((len(rows), len(machines)), (8, 2))
+        self.assertEqual((len(rows), len(machines)), (12, 3))
         rate = {(row["machine"], row["frames"]): float(row["frames/s"]) for row in rows}
         for machine in machines:
             back_to_back = rate[machine, "back to back"]
@@ -246,7 +246,20 @@ class WithTheCommand(InFolder):
             self.assertGreater(back_to_back, rate[machine, "two eyes, back to back"])
         for row in tables.read_rows(self.folder, "headset_second_eye"):
             self.assertTrue(0 < float(row["bytes"]) < 1, row)
-        self.assertEqual(len(tables.read_rows(self.folder, "headset_ratios")), 4)
+        second = {row["machine"]: row for row in tables.read_rows(self.folder, "headset_second_eye")}
+        ratios = tables.read_rows(self.folder, "headset_ratios")
+        self.assertEqual(
+            [(row["machine"], row["frames"]) for row in ratios],
+            [(machine, way.name) for machine in headset.OURS for way in headset.WAYS],
+        )
+        for row in ratios:
+            area = float(row["mm2"]) / float(row["its mm2"])
+            self.assertAlmostEqual(float(row["area ratio"]), area)
+        *ours, other = tables.read_rows(self.folder, "headset_stereo")
+        self.assertEqual(other["speed-up"], "1.7")
+        for row in ours:
+            more = float(second[row["machine"]]["cycles"])
+            self.assertAlmostEqual(float(row["speed-up"]), 2 / (1 + more))
         *ours, other = tables.read_rows(self.folder, "headset_published")
         for row in ours:
             pairs = rate[row["machine"], "two eyes, back to back"]
@@ -260,6 +273,21 @@ class WithTheCommand(InFolder):
             self.assertAlmostEqual(sum(watts), float(row["memory W"]))
         with mock.patch.object(headset, "call", side_effect=AssertionError("drawn again")):
             self.assertEqual(self.ended(HEADSET, *words)[0], 0)
+
+    def test_gscore_at_its_best_for_a_headset(self):
+        program = pathlib.Path(COMMAND)
+        for size, way, said in (
+            ("64x36", headset.ALONE, {"lists.tiles=12", "lists.lines=6"}),
+            ("64x36", headset.PAIRS_BACK_TO_BACK, {"lists.tiles=24", "lists.sets=2"}),
+            ("640x360", headset.ALONE, {"sorting.list_entries=2304"}),
+            ("2064x2208", headset.ALONE, {"sorting.list_entries=1024"}),
+        ):
+            with self.subTest(size, way=way.name):
+                found = set(headset.settings_of(program, headset.OTHERS, size, way))
+                self.assertLessEqual(said, found)
+                self.assertEqual("lists.sets=2" in found, way.stream)
+                entries = next(each for each in found if "list_entries" in each)
+                self.assertGreaterEqual(int(entries.partition("=")[2]), 1024)
 
     @nightly
     def test_the_paper_is_reproduced_from_small_frames(self):
