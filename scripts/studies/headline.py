@@ -5,7 +5,8 @@ other studies made. Areas come from a short run of each preset. Makes
   headline_scenes  speed-up and energy by scene of frames alone, which the figure headline shows
 
 Scenes are trained, none is built in. `compare_machines_cases` has pairs of one precision; neither
-machine asks for tuning. `fair_fight_summary` has what a search found for each order in one area.
+machine asks for tuning. `compare_machines_ratios` tells what their pictures are, over all that was
+compared. `fair_fight_summary` has what a search found for each order in one area.
 """
 
 from __future__ import annotations
@@ -13,7 +14,6 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import json
-import math
 import pathlib
 import statistics
 import tempfile
@@ -24,6 +24,8 @@ from runs import run_arguments
 from runs.files import content_digest, read_json, write_text
 from runs.scenes import REPOSITORY, answered, find_scene
 from runs.simulations import Run
+from studies.cases import ALL_SIZES
+from studies.found import ROUNDING_DB
 from tables import SCENE, Column, Made, Study
 
 Pair = tuple[str, str]  # machine, baseline
@@ -31,8 +33,9 @@ Ratio = tuple[float, float | None]  # speed-up; energy, None: not measured
 Ratios = Mapping[str, Ratio]  # by scene
 Cells = Mapping[str, str]
 
-CASES, SEARCHED = "compare_machines_cases", "fair_fight_summary"
-READS = {"compare_machines": [CASES], "fair_fight": [SEARCHED]}
+CASES, RATIOS, SEARCHED = "compare_machines_cases", "compare_machines_ratios", "fair_fight_summary"
+READS = {"compare_machines": [CASES, RATIOS], "fair_fight": [SEARCHED]}
+TABLES = tuple(name for names in READS.values() for name in names)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -49,12 +52,11 @@ class Frames:
 ALONE = Frames("alone, 25.6 GB/s", 4, "25.6", "times as fast", "times less energy")
 OVERLAPPED = Frames("overlapped, 51.2 GB/s", 8, "51.2", "both overlapped")
 BASELINE = "gscore_lossless_boxes"
-# From CASES: what both pictures of a pair are.
-PICTURES: Mapping[Pair, str] = {
-    ("exact_fast", BASELINE): "both: the reference picture",
-    ("exact", BASELINE): "both: the reference picture",
-    ("exact_fp16", "gscore_boxes"): "both: in half precision",
-}
+PAIRS: Sequence[Pair] = (
+    ("exact_fast", BASELINE),
+    ("exact", BASELINE),
+    ("exact_fp16", "gscore_boxes"),
+)
 # From SEARCHED: what was found for each, in one area.
 SEARCHED_PAIRS: Mapping[Pair, str] = {
     ("exact", "gscore"): "exact order / GSCore, both searched",
@@ -110,6 +112,41 @@ def geometric(ratios: Sequence[Ratio]) -> Ratio:
     return statistics.geometric_mean(speeds), energy
 
 
+def picture(own: Sequence[float], other: Sequence[float], single: bool) -> str:
+    """What two pictures are, by ends of their PSNR. single: both in single precision, of which what
+    is above ROUNDING_DB is the reference picture in 8 bits."""
+    if single and min(*own, *other) >= ROUNDING_DB:
+        return "both: the reference picture"
+    whose = ("", ", baseline ")
+    said = (f"{name}{between(ends, single)}" for name, ends in zip(whose, (own, other)))
+    return ("" if single else "in half precision, ") + "".join(said)
+
+
+def between(ends: Sequence[float], single: bool) -> str:
+    if single and min(ends) >= ROUNDING_DB:
+        return "the reference picture"
+    return f"{min(ends):.1f} .. {max(ends):.1f} dB"
+
+
+def compared_picture(rows: Sequence[Cells], pair: Pair, frames: Frames) -> str:
+    """By RATIOS, over all sizes. Raises ValueError where it has no such row, or one of two
+    precisions."""
+    wanted = (*pair, frames.gb_s, ALL_SIZES)
+    for row in rows:
+        if (row["machine"], row["than"], row["GB/s"], row["sizes"]) == wanted:
+            if row["precision"] not in ("fp32", "fp16"):
+                break
+            own, other = (
+                [float(row[f"{whose}dB, {end}"]) for end in ("least", "most")]
+                for whose in ("", "its ")
+            )
+            return picture(own, other, row["precision"] == "fp32")
+    raise ValueError(
+        f"{RATIOS}.csv: got no row of {named(pair)} at {frames.gb_s} GB/s, sizes {ALL_SIZES}, in one "
+        "precision"
+    )
+
+
 def searched_row(rows: Sequence[Cells], pair: Pair) -> tuple:
     """Of what was found for either, over the sizes. Its area is without PHY and controller. Raises
     ValueError where a search is missing."""
@@ -127,13 +164,12 @@ def searched_row(rows: Sequence[Cells], pair: Pair) -> tuple:
             float(other[size][column]) / float(own[size][column]) for size in own
         )
 
-    ends = [float(row[f"PSNR dB, {end}"]) for row in other.values() for end in ("least", "most")]
-    if min(ends) == math.inf:
-        pictures = "both: the reference picture"
-    else:
-        pictures = f"the reference picture, baseline {min(ends):.1f} .. {max(ends):.1f} dB"
+    ends = (
+        [float(row[f"PSNR dB, {end}"]) for row in of.values() for end in ("least", "most")]
+        for of in (own, other)
+    )
     ratios = (over("M cycles"), over("mJ"), 1 / over("mm2"), None)
-    return (SEARCHED_PAIRS[pair], ALONE.text, *ratios, pictures)
+    return (SEARCHED_PAIRS[pair], ALONE.text, *ratios, picture(*ends, single=True))
 
 
 def area_mm2(
@@ -183,22 +219,24 @@ def add_arguments(to: run_arguments.Parser) -> None:
         type=pathlib.Path,
         default=REPOSITORY / "traces" / "results",
         metavar="FOLDER",
-        help=f"with {CASES} and {SEARCHED}",
+        help=f"with {', '.join(TABLES)}",
     )
     run_arguments.add_program(to)
 
 
 def make(arguments: argparse.Namespace) -> None:
-    read = {name: tables.read_rows(arguments.tables, name) for name in (CASES, SEARCHED)}
+    read = {name: tables.read_rows(arguments.tables, name) for name in TABLES}
     ratios = {
-        **{(pair, ALONE): compared(read[CASES], pair, ALONE) for pair in PICTURES},
-        **{(pair, OVERLAPPED): compared(read[CASES], pair, OVERLAPPED) for pair in PICTURES},
+        (pair, frames): compared(read[CASES], pair, frames)
+        for frames in (ALONE, OVERLAPPED)
+        for pair in PAIRS
     }
     rows, provenances = [], []
     for (pair, frames), of_scenes in ratios.items():
         areas, told = area_ratios(arguments.streaminggs, pair, frames.channels)
         means = geometric(list(of_scenes.values()))
-        rows.append((named(pair), frames.text, *means, *areas, PICTURES[pair]))
+        pictures = compared_picture(read[RATIOS], pair, frames)
+        rows.append((named(pair), frames.text, *means, *areas, pictures))
         provenances += told
     rows += [searched_row(read[SEARCHED], pair) for pair in SEARCHED_PAIRS]
     scenes = [
@@ -208,7 +246,7 @@ def make(arguments: argparse.Namespace) -> None:
         for scene, of in of_scenes.items()
     ]
     by = made_from(arguments, provenances)
-    text = about(list(ratios[next(iter(PICTURES)), ALONE]))
+    text = about(list(ratios[PAIRS[0], ALONE]))
     tables.write(arguments.out, "headline", by, COLUMNS, rows, text)
     tables.write(arguments.out, "headline_scenes", by, SCENE_COLUMNS, scenes, text)
 
@@ -216,8 +254,7 @@ def make(arguments: argparse.Namespace) -> None:
 def made_from(arguments: argparse.Namespace, provenances: Sequence[dict]) -> Made:
     """Of the tables that it is from as well. inputs: their digests."""
     own = tables.made(arguments.streaminggs, provenances)
-    names = (CASES, SEARCHED)
-    sources = {name: tables.facts_of(arguments.tables, name)["made"] for name in names}
+    sources = {name: tables.facts_of(arguments.tables, name)["made"] for name in TABLES}
 
     def all_of(key: str, of_own: Sequence[str]) -> tuple[str, ...]:
         return tuple(sorted({*of_own, *(each for made in sources.values() for each in made[key])}))

@@ -13,7 +13,7 @@ from unittest import mock
 from in_folder import InFolder  # isort: skip (finds the scripts)
 import results
 import tables
-from runs.files import content_digest
+from runs.files import content_digest, read_csv
 from runs.scenes import Scene
 from studies import claims, compare_machines, frame_costs, headline, matched, reproduction
 from studies.cases import (
@@ -270,13 +270,13 @@ class Headline(InFolder):
     """From tables of other studies, with areas that stand in for runs."""
 
     PAIR = ("exact_fast", "gscore_lossless")
-    FEW = {PAIR: "equal"}
 
     def setUp(self):
         super().setUp()
         self.write_cases(
             *(("truck", 2, 3), ("truck", 8, 3), ("yard", 1, 12)), ("builtin:object", 64, 64)
         )
+        self.write_pictures("fp32", "58.9", "inf")
         head = ("size px", "machine", "mm2", "M cycles", "mJ", "PSNR dB, least", "PSNR dB, most")
         self.save(
             headline.SEARCHED,
@@ -299,6 +299,13 @@ class Headline(InFolder):
         head += ("both overlapped",)
         self.save(headline.CASES, head, rows)
 
+    def write_pictures(self, precision, own_db, other_db):
+        head = ("machine", "than", "sizes", "GB/s", "precision")
+        head += ("dB, least", "dB, most", "its dB, least", "its dB, most")
+        told = (precision, own_db, "inf", other_db, "inf")
+        rows = [(*self.PAIR, "all", gb_s, *told) for gb_s in ("25.6", "51.2")]
+        self.save(headline.RATIOS, head, rows)
+
     def save(self, name, head, rows):
         by = Made("x", (f"of {name}",))
         tables.save(self.folder, name, by, [Column(each, "") for each in head], rows)
@@ -313,7 +320,7 @@ class Headline(InFolder):
             tables=self.folder, out=self.folder, streaminggs=self.stand_in("")
         )
         with mock.patch.object(headline, "area_mm2", area):
-            with mock.patch.object(headline, "PICTURES", self.FEW):
+            with mock.patch.object(headline, "PAIRS", [self.PAIR]):
                 with contextlib.redirect_stdout(io.StringIO()):
                     headline.make(arguments)
         return tables.read_rows(self.folder, "headline")
@@ -351,6 +358,10 @@ class Headline(InFolder):
         self.assertAlmostEqual(float(row["area ratio"]), 2)
         self.assertEqual(row["area ratio with PHY and controller"], "")
         self.assertEqual(row["picture"], "the reference picture, baseline 15.0 .. 40.0 dB")
+        head, rows = read_csv(self.folder / f"{headline.SEARCHED}.csv")
+        rows = [[cell.replace("inf", "30") for cell in row] for row in rows]
+        self.save(headline.SEARCHED, head, rows)
+        self.assertEqual(self.made()[-2]["picture"], "30.0 .. 30.0 dB, baseline 30.0 .. 30.0 dB")
         self.save(headline.SEARCHED, ("size px", "machine"), [("1x1", "preset exact")])
         with self.assertRaisesRegex(ValueError, "no machine of each size that was found"):
             self.made()
@@ -358,9 +369,22 @@ class Headline(InFolder):
     def test_it_names_the_tables_that_it_is_from(self):
         self.made()
         made = tables.facts_of(self.folder, "headline")["made"]
-        names = (headline.CASES, headline.SEARCHED)
+        names = (headline.CASES, headline.RATIOS, headline.SEARCHED)
         self.assertEqual(made["commits"], sorted(f"of {name}" for name in names))
         self.assertEqual(list(made["inputs"]), [f"{name}.csv" for name in names])
+
+    def test_what_pictures_are(self):
+        for told, said in (
+            (("fp32", "58.9", "inf"), "both: the reference picture"),
+            (("fp32", "40", "58.9"), "40.0 .. inf dB, baseline the reference picture"),
+            (("fp16", "38", "60"), "in half precision, 38.0 .. inf dB, baseline 60.0 .. inf dB"),
+        ):
+            self.write_pictures(*told)
+            with self.subTest(told):
+                self.assertEqual({row["picture"] for row in self.made()[:2]}, {said})
+        self.write_pictures("fp32, its fp16", "40", "40")
+        with self.assertRaisesRegex(ValueError, "got no row of exact_fast / gscore_lossless at 25"):
+            self.made()
 
     def test_without_trained_scenes_there_is_none(self):
         self.write_cases(("builtin:object", 1, 1))
