@@ -28,15 +28,16 @@ holds is not judged at all. No other one beats what is on the front in what is t
 where pictures differ by 0.1 dB or more, in PSNR.
 
 Simulations are kept in explore_runs.jsonl: interrupted or started again it goes on where it ended.
-Writes explore.csv, a line for each configuration, explore.json, what its columns mean, what made it,
-how many were judged and how a search ended, and exploration.svg and .png, whose axes are what was required; filter_units.svg
-and .png where CFUs and FFU lanes are all that differs. For one objective explore_best.json is the
-best as a configuration, explore_best_SCENE.json where scenes have their own; the last line has the
-command that simulates it. With --stereo frames are judged alone, without the display's reads and
-rows; one more line has the command that draws them back to back for a display. Where min(fps) is required, the best's watts at that rate are told. Where
-no configuration holds what is required, the exit status is 3, and the last line says which bounds
-are missed and by how much the nearest one misses. Of what was interrupted or failed midway there
-are explore_partial.csv and .json.
+Writes explore.csv, a line for each configuration, explore.json, what its columns mean, what made
+it, how many were judged and how a search ended, and exploration.svg and .png, whose axes are what
+was required; filter_units.svg and .png where CFUs and FFU lanes are all that differs. For one
+objective explore_best.json is the best as a configuration, explore_best_SCENE.json where scenes
+have their own; the last line has the command that simulates it. With --stereo frames are judged
+alone, without the display's reads and rows; one more line has the command that draws them back to
+back for a display. Where min(fps) is required, the best's watts at that rate are told. Where no
+configuration holds what is required, the exit status is 3, and the last line says which bounds are
+missed and by how much the nearest one misses. Of what was interrupted or failed midway there are
+explore_partial.csv and .json.
 
 With --study the trials of a search or grid are kept by name in --storage, a file, or a database of
 postgresql:// in which any number of workers on any number of machines take part, each started by
