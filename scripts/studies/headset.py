@@ -27,7 +27,7 @@ from tables import SCENE, SIZE, Column, Study
 
 SCENES = ("truck", "playbot", "yard", "park", "platform", "garden")
 HEADSET_SIZES = ("640x360", "2064x2208")
-RATES = (72, 90, 120)
+RATES = (60, 90, 120)
 TILE_PX = 16
 
 OTHERS = "gscore_lossless_boxes"
