@@ -41,6 +41,7 @@ class DramController : public sc_core::sc_module, public CommandSource {
 
   std::uint64_t capacity_bytes() const { return store_.capacity_bytes(); }
   const Memspec& memspec() const { return memspec_; }
+  const sc_core::sc_time& clock_period() const { return clock_period_; }
   const DramConfig& config() const { return config_; }
 
   // Loading and reading back without time; std::out_of_range outside the capacity.

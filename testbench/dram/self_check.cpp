@@ -151,7 +151,9 @@ bool run_self_check(const SelfCheck& check) {
 
   std::unique_ptr<Waveform> waveform;
   if (check.vcd != nullptr) {
-    waveform = std::make_unique<Waveform>(*check.vcd);
+    const std::vector<sc_core::sc_time> steps = {sc_core::sc_time(1, sc_core::SC_NS),
+                                                 dram.clock_period()};
+    waveform = std::make_unique<Waveform>(*check.vcd, steps);
     for (const auto& user : users) user->port.trace(waveform->file());
   }
 

@@ -132,7 +132,9 @@ void UnitBench::connect_memory() {
 void UnitBench::simulate() {
   std::optional<Waveform> waveform;
   if (test_.vcd != nullptr) {
-    waveform.emplace(*test_.vcd);
+    std::vector<sc_core::sc_time> steps = {clock_.period()};
+    if (dram_) steps.push_back(dram_->clock_period());
+    waveform.emplace(*test_.vcd, steps);
     WaveformSheet sheet(waveform->file());
     for (const auto& publish_unit : publishers_) publish_unit(sheet);
     for (const auto& fifo : fifos_) fifo->trace(waveform->file());

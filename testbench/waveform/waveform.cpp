@@ -6,8 +6,10 @@
 #include <sysc/tracing/sc_tracing_ids.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <stdexcept>
 
@@ -31,9 +33,17 @@ void copy(int from, OutputFile& to) {
   ::close(from);
 }
 
+sc_core::sc_time_unit unit_of(const std::vector<sc_core::sc_time>& steps) {
+  const std::uint64_t picosecond = sc_core::sc_time(1, sc_core::SC_PS).value();
+  const bool whole = std::all_of(steps.begin(), steps.end(), [&](const sc_core::sc_time& step) {
+    return step.value() % picosecond == 0;
+  });
+  return whole ? sc_core::SC_PS : sc_core::SC_FS;
+}
+
 }  // namespace
 
-Waveform::Waveform(OutputFile& to) : to_(to) {
+Waveform::Waveform(OutputFile& to, const std::vector<sc_core::sc_time>& steps) : to_(to) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) fail(to, "no pipe for the waveform");
   // SystemC adds .vcd to the name that it is given, and takes no open file.
@@ -46,7 +56,7 @@ Waveform::Waveform(OutputFile& to) : to_(to) {
   sc_core::sc_report_handler::set_actions(sc_core::SC_ID_TRACING_TIMESCALE_UNIT_, sc_core::SC_INFO,
                                           sc_core::SC_DO_NOTHING);
   file_ = sc_core::sc_create_vcd_trace_file(to.temporary_path().c_str());
-  file_->set_time_unit(1, sc_core::SC_PS);
+  file_->set_time_unit(1, unit_of(steps));
   // Opens the file, which would happen at the first change of a signal otherwise.
   file_->write_comment("waveform of a StreamingGS simulation");
   ::unlink(link.c_str());

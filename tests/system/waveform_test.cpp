@@ -201,5 +201,32 @@ TEST_CASE("waveform: quantised scenes show the codebook buffer and what decodes"
   }
 }
 
+// SystemC warns at each moment between two units of the file.
+TEST_CASE("waveform: its unit holds every moment, of odd clocks and of a display's rows too") {
+  const Arguments stream = {"--path", "builtin:path", "--frames", "2", "--stream"};
+  struct Row {
+    Arguments arguments;
+    const char* unit;
+  };
+  for (const auto& [arguments, unit] :
+       {Row{{"--view", "0"}, "1 ps"}, Row{settings({"clock_mhz=700"}), "1 fs"},
+        Row{settings({"dram.memspec=lpddr3_2133_4gb"}), "1 fs"},
+        Row{joined(stream, {"--frame-rate", "0"}), "1 ps"},
+        Row{joined(stream, {"--frame-rate", "9000"}), "1 fs"}}) {
+    INFO(arguments.back());
+    const ScratchFolder scratch;
+    const std::string vcd = scratch.path("wave.vcd");
+    const Outcome outcome =
+        run_streaminggs(joined({"simulate", "builtin:object?n=1000", "--size", "48x27", "--vcd",
+                                vcd, "--out", scratch.path("out")},
+                               arguments));
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.status == 0);
+    CHECK((outcome.out + outcome.err).find("Warning") == std::string::npos);
+    CHECK(bytes_of(vcd).find(std::string("$timescale\n     ") + unit + "\n$end") !=
+          std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace sgs::test

@@ -126,7 +126,10 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
   }
   std::optional<Waveform> waveform;
   if (outputs.vcd != nullptr) {
-    waveform.emplace(*outputs.vcd);
+    std::vector<sc_core::sc_time> steps = {machine->clock().period(), memory.clock_period()};
+    // Rows of a display come at any moment.
+    if (shown && shown->rate > 0) steps.push_back(sc_core::sc_get_time_resolution());
+    waveform.emplace(*outputs.vcd, steps);
     WaveformSheet sheet(waveform->file());
     machine->publish(sheet);
     memory.trace(waveform->file());

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <string>
+#include <vector>
 
 #include "tests/support/scratch_folder.h"
 
@@ -13,6 +14,8 @@ namespace sgs {
 namespace {
 
 using Catch::Matchers::Contains;
+
+std::vector<sc_core::sc_time> nanoseconds() { return {sc_core::sc_time(1, sc_core::SC_NS)}; }
 
 // Counts in 64 bits, once a nanosecond.
 class Counter : public sc_core::sc_module {
@@ -45,7 +48,7 @@ std::size_t changes_in(const std::string& vcd) {
 TEST_CASE("waveform: every change up to the last moment is in the file") {
   const test::ScratchFolder scratch;
   OutputFile output(scratch.path("folder/wave"));
-  Waveform waveform(output);
+  Waveform waveform(output, nanoseconds());
   constexpr std::uint64_t kLast = 50000;
   Counter counter("counter", kLast);
   sc_core::sc_trace(waveform.file(), counter.count, "count");
@@ -70,7 +73,7 @@ TEST_CASE("waveform: on a disk that is full it says so and leaves nothing") {
   REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
   {
     OutputFile output(scratch.path("wave.vcd"));
-    Waveform waveform(output);
+    Waveform waveform(output, nanoseconds());
     Counter counter("counter", 5000);  // several times what fits, also into the pipe
     sc_core::sc_trace(waveform.file(), counter.count, "count");
     sc_core::sc_start();
@@ -83,12 +86,12 @@ TEST_CASE("waveform: dropped without a simulation, and while one is under way") 
   const test::ScratchFolder scratch;
   {
     OutputFile output(scratch.path("none.vcd"));
-    const Waveform waveform(output);
+    const Waveform waveform(output, nanoseconds());
   }
   {
     Counter counter("counter", 5000);
     OutputFile output(scratch.path("cut.vcd"));
-    const Waveform waveform(output);
+    const Waveform waveform(output, nanoseconds());
     sc_core::sc_trace(waveform.file(), counter.count, "count");
     sc_core::sc_start(2000, sc_core::SC_NS);
   }
