@@ -24,6 +24,8 @@ class FrameHostIf : public virtual sc_core::sc_interface {
   // One of the two may have changed.
   virtual const sc_core::sc_event& news() const = 0;
 
+  // Pixels of the frame are there and wait for its buffer, from now on at the latest.
+  virtual void awaits_buffer(std::uint32_t frame) = 0;
   // The machine reads the frame's pose now.
   virtual void takes_pose(std::uint32_t frame) = 0;
   // All its pixels are in the memory. Frames come in turn.
@@ -50,7 +52,8 @@ inline void await_pose(FrameHostPort& host, std::uint32_t frame, Activity& activ
 
 // Waits until pixels of the frame may be written.
 inline void await_buffer(FrameHostPort& host, std::uint32_t frame, Activity& activity) {
-  if (host.size() == 0) return;
+  if (host.size() == 0 || host->buffer_free(frame)) return;
+  host->awaits_buffer(frame);
   while (!host->buffer_free(frame)) {
     activity.waits_for(WaitFor::kRoom, host);
     sc_core::wait(host->news());

@@ -28,11 +28,6 @@ FrameJob MachineDesign::stream(const StoredScene& scene, const std::vector<Camer
   return job;
 }
 
-void MachineDesign::draw_two_eyes() {
-  throw InputError(
-      "--stereo: got it with a machine that draws one picture a frame, expected exact or gscore");
-}
-
 void check_eyes(std::uint32_t eyes, const Camera& camera) {
   if ((eyes > 1) == (camera.eyes_apart != 0)) return;
   throw InputError(

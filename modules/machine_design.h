@@ -46,8 +46,8 @@ class MachineDesign {
   // something follows from them. Before resolve(); not at all where there is no picture.
   virtual void fit_frames(const std::function<std::vector<PixelSize>()>& frames) { (void)frames; }
 
-  // Builds it for frames of two eyes. Before resolve(). Throws InputError where it can not.
-  virtual void draw_two_eyes();
+  // Builds it for frames of two eyes. Before resolve(). False: it draws one eye a frame.
+  virtual bool draw_two_eyes() { return false; }
 
   // Fills in what the configuration left to the model, and adds it to `chosen`. Buffers are built
   // for any scene that is stored so. Throws InputError for what cannot be built; the message shows

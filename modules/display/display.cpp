@@ -30,7 +30,7 @@ Display::Display(const sc_core::sc_module_name& name, const FrameJob& job, doubl
       job_(job),
       period_(period_of(rate)),
       cycle_(cycle),
-      times_(job.frames(), FrameTimes{never(), never(), never(), never()}),
+      times_(job.frames(), FrameTimes{never(), never(), never(), never(), never()}),
       pictures_(job.eyes, std::vector<std::byte>(job.frame_buffer.bytes)),
       news_("news") {
   for (std::uint32_t frame = 0; frame < job.frames(); ++frame) times_[frame].pose = due(frame);
@@ -48,6 +48,17 @@ bool Display::pose_known(std::uint32_t frame) const {
 
 bool Display::buffer_free(std::uint32_t frame) const {
   return frame < kFramesAtOnce || is_past(times_[frame - kFramesAtOnce + 1].shown);
+}
+
+void Display::awaits_buffer(std::uint32_t frame) {
+  if (period_ == sc_core::SC_ZERO_TIME) return;  // the frame before is not drawn yet
+  times_[frame].kept = std::min(times_[frame].kept, sc_core::sc_time_stamp());
+}
+
+sc_core::sc_time Display::buffer_wait(std::uint32_t frame) const {
+  const sc_core::sc_time& since = times_[frame].kept;
+  if (since == never()) return sc_core::SC_ZERO_TIME;
+  return times_[frame - kFramesAtOnce + 1].shown + cycle_ - since;
 }
 
 void Display::takes_pose(std::uint32_t frame) {

@@ -24,6 +24,7 @@ struct FrameTimes {
   sc_core::sc_time begun;  // the machine read the pose
   sc_core::sc_time drawn;  // its last pixel came to the memory
   sc_core::sc_time shown;  // its first row is read for the first time
+  sc_core::sc_time kept;   // pixels began to wait for the buffer; never: none did
 };
 
 class Display : public sc_core::sc_module, public FrameHostIf {
@@ -50,6 +51,8 @@ class Display : public sc_core::sc_module, public FrameHostIf {
   const std::vector<FrameTimes>& times() const { return times_; }
   std::uint32_t frames_shown() const { return shown_; }
   sc_core::sc_time rested() const;  // so far, as on_rest() says
+  // For which the frame's pixels waited until the display left its buffer.
+  sc_core::sc_time buffer_wait(std::uint32_t frame) const;
 
   // From the first frame's picture to the last one's.
   struct Counters : CounterSet {
@@ -64,6 +67,7 @@ class Display : public sc_core::sc_module, public FrameHostIf {
   bool pose_known(std::uint32_t frame) const override;
   bool buffer_free(std::uint32_t frame) const override;
   const sc_core::sc_event& news() const override { return news_.default_event(); }
+  void awaits_buffer(std::uint32_t frame) override;
   void takes_pose(std::uint32_t frame) override;
   void drawn(std::uint32_t frame) override;
 

@@ -12,7 +12,10 @@ class GscoreDesign : public MachineDesign {
   void visit(ConfigVisitor& v) override { gscore::visit(v, config_); }
   StorageOrder storage_order() const override { return config_.storage_order(); }
   void fit_frames(const std::function<std::vector<PixelSize>()>& frames) override;
-  void draw_two_eyes() override { config_.eyes = 2; }
+  bool draw_two_eyes() override {
+    config_.eyes = 2;
+    return true;
+  }
   void resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) override;
   std::vector<const char*> fit_memories() override {
     memory_fitted_ = true;

@@ -12,7 +12,10 @@ class ExactDesign : public MachineDesign {
  public:
   void visit(ConfigVisitor& v) override { sgs::visit(v, config_); }
   StorageOrder storage_order() const override { return StorageOrder::kChunks; }
-  void draw_two_eyes() override { config_.hfu.eyes = 2; }
+  bool draw_two_eyes() override {
+    config_.hfu.eyes = 2;
+    return true;
+  }
   void resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) override;
   void fit_frames(const std::function<std::vector<PixelSize>()>& frames) override {
     sram_.frames = frames_for(config_, frames);

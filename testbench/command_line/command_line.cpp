@@ -8,6 +8,7 @@
 #include <cctype>
 #include <charconv>
 #include <filesystem>
+#include <functional>
 #include <limits>
 
 #include "algorithm/files/input_error.h"
@@ -37,10 +38,17 @@ CLI::Validator in_interval(Number lo, Number hi, const char* kind) {
       fmt::format("in [{}, {}]", lo, hi));
 }
 
+// What a list's numbers may be, and the same in words.
+template <class Number>
+struct Allowed {
+  std::function<bool(Number)> allows;
+  std::string expected;
+};
+
 // texts: each time that the option was given.
 template <class Number>
-std::vector<Number> list_of(const std::vector<std::string>& texts, const char* name, Number lo,
-                            Number hi, const char* kind) {
+std::vector<Number> list_of(const std::vector<std::string>& texts, const char* name,
+                            const Allowed<Number>& allowed) {
   const std::string text = join(texts, ",");
   std::vector<Number> values;
   const auto refuse = [&](const std::string& got, const std::string& expected) {
@@ -51,8 +59,8 @@ std::vector<Number> list_of(const std::vector<std::string>& texts, const char* n
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string word = text.substr(begin, end - begin);
     Number value{};
-    if (!read(word, value) || !(value >= lo && value <= hi)) {
-      refuse(fmt::format("'{}'", word), fmt::format("{} from {} to {}", kind, lo, hi));
+    if (!read(word, value) || !allowed.allows(value)) {
+      refuse(fmt::format("'{}'", word), allowed.expected);
     }
     if (std::find(values.begin(), values.end(), value) != values.end()) {
       refuse(word + " again", "different ones");
@@ -63,12 +71,10 @@ std::vector<Number> list_of(const std::vector<std::string>& texts, const char* n
   return values;
 }
 
-CLI::Validator not_empty() {
+// refusal: of an empty text.
+CLI::Validator not_empty(const std::string& refusal) {
   return CLI::Validator(
-      [](const std::string& text) {
-        return text.empty() ? std::string("got nothing, expected a name") : std::string();
-      },
-      "");
+      [=](const std::string& text) { return text.empty() ? refusal : std::string(); }, "");
 }
 
 // CLI11 says of a wrong command that none was given, and of none not which there are.
@@ -95,6 +101,18 @@ std::string argument_of(const std::string& bare, const CLI::App& app) {
   return there ? upper : "";
 }
 
+// "--frame-rate" of "rate": the only option of which the word is a part between dashes. Empty: none
+// or several.
+std::string option_with_part(const std::string& bare, const std::vector<std::string>& options) {
+  std::string found;
+  for (const std::string& option : options) {
+    if ((option + "-").find("-" + bare + "-") == std::string::npos) continue;
+    if (!found.empty()) return "";
+    found = option;
+  }
+  return found;
+}
+
 // What "--hfus 8" or "--hfus=8" may mean where no such option is: an argument without a name, a key
 // of --set, or an option that is spelt nearly so.
 std::string meaning_of_option(const std::string& name, const std::string& value,
@@ -111,7 +129,9 @@ std::string meaning_of_option(const std::string& name, const std::string& value,
   std::string as_key = bare;
   std::replace(as_key.begin(), as_key.end(), '-', '_');
   const auto key = nearest_key(as_key, keys);
-  const std::string option = did_you_mean("--" + bare, options);
+  const std::string whole = option_with_part(bare, options);
+  const std::string option =
+      whole.empty() ? did_you_mean("--" + bare, options) : fmt::format("; did you mean {}?", whole);
   if (!key || (!option.empty() && keys[*key] != as_key)) return option;
   return fmt::format("; did you mean --set {}={}?", keys[*key], value.empty() ? "VALUE" : value);
 }
@@ -152,10 +172,10 @@ struct CommandLine::App {
   std::function<std::vector<std::string>()> keys;  // those of --set; none where it takes none
 
   template <class Number>
-  void add_list(const char* name, std::vector<Number>& values, Number lo, Number hi,
-                const char* kind, const char* what) {
+  void add_list(const char* name, std::vector<Number>& values, const Allowed<Number>& allowed,
+                const char* what) {
     const auto take = [=, &values](const std::vector<std::string>& texts) {
-      values = list_of(texts, name, lo, hi, kind);
+      values = list_of(texts, name, allowed);
     };
     app->add_option_function<std::vector<std::string>>(name, take, what)
         ->type_name("NUMBER,...")
@@ -195,7 +215,7 @@ void CommandLine::text(const char* name, std::string& value, const char* what, G
 
 void CommandLine::file(const char* name, std::string& value, const char* what, Given given) {
   app_->add(name, value, what, given)
-      ->check(not_empty())
+      ->check(not_empty("got nothing, expected a name"))
       ->default_str(std::filesystem::path(value).filename().string());
 }
 
@@ -228,9 +248,12 @@ void CommandLine::real(const char* name, std::optional<double>& value, double lo
   app_->add(name, value, what)->check(in_interval(lo, hi, "a number"));
 }
 
-void CommandLine::reals(const char* name, std::vector<double>& values, double lo, double hi,
-                        const char* what) {
-  app_->add_list(name, values, lo, hi, "a number", what);
+void CommandLine::reals_or_0(const char* name, std::vector<double>& values, double lo, double hi,
+                             const char* what) {
+  const Allowed<double> allowed{
+      [=](double value) { return value == 0 || (value >= lo && value <= hi); },
+      fmt::format("a number from {} to {}, or 0", lo, hi)};
+  app_->add_list(name, values, allowed, what);
 }
 
 // An option that may be repeated takes one value each time: what follows is another argument.
@@ -243,7 +266,10 @@ void CommandLine::list(const char* name, std::vector<std::string>& values, const
 }
 
 void CommandLine::numbers(const char* name, std::vector<int>& values, const char* what) {
-  app_->add_list(name, values, 0, std::numeric_limits<int>::max(), "a whole number", what);
+  constexpr int kMost = std::numeric_limits<int>::max();
+  const Allowed<int> allowed{[](int value) { return value >= 0; },
+                             fmt::format("a whole number from 0 to {}", kMost)};
+  app_->add_list(name, values, allowed, what);
 }
 
 void CommandLine::needs(const char* name, const char* other) {
@@ -252,6 +278,10 @@ void CommandLine::needs(const char* name, const char* other) {
 
 void CommandLine::excludes(const char* name, const char* other) {
   app_->app->get_option(name)->excludes(app_->app->get_option(other));
+}
+
+void CommandLine::refuses_empty(const char* name, const char* expected) {
+  app_->app->get_option(name)->check(not_empty(fmt::format("got '', expected {}", expected)));
 }
 
 void CommandLine::set_keys(const std::function<std::vector<std::string>()>& keys) {

@@ -46,8 +46,9 @@ class CommandLine {
   void whole(const char* name, std::optional<std::uint32_t>& value, std::uint32_t lo,
              std::uint32_t hi, const char* what);
   void real(const char* name, std::optional<double>& value, double lo, double hi, const char* what);
-  // Different finite numbers in [lo, hi], with commas between them.
-  void reals(const char* name, std::vector<double>& values, double lo, double hi, const char* what);
+  // Different numbers with commas between them, each 0 or finite in [lo, hi].
+  void reals_or_0(const char* name, std::vector<double>& values, double lo, double hi,
+                  const char* what);
   // May be repeated, one text each.
   void texts(const char* name, std::vector<std::string>& values, const char* what);
   // Positional, any number of them.
@@ -59,6 +60,8 @@ class CommandLine {
   void needs(const char* name, const char* other);
   // Or beside another.
   void excludes(const char* name, const char* other);
+  // Or where its text is empty: an option that was given must not count as left out.
+  void refuses_empty(const char* name, const char* expected);
 
   // keys: makes the keys that --set of this command takes. Whoever writes one as an option is told.
   void set_keys(const std::function<std::vector<std::string>()>& keys);

@@ -109,7 +109,7 @@ void serialize(Archive& a, MemoryResult& r) {
 }
 template <class Archive>
 void serialize(Archive& a, StreamedFrame& r) {
-  a(r.pose_s, r.begun_s, r.drawn_s, r.shown_s);
+  a(r.pose_s, r.begun_s, r.drawn_s, r.shown_s, r.buffer_wait_s);
 }
 template <class Archive>
 void serialize(Archive& a, FrameResult& r);

@@ -138,12 +138,13 @@ struct MemoryResult {
   double time_in_s(const std::string& state) const;
 };
 
-// A frame of a stream. Seconds since the start.
+// A frame of a stream. Seconds since the start, but for the wait.
 struct StreamedFrame {
-  double pose_s = 0;   // its pose was there
-  double begun_s = 0;  // the machine read the pose
-  double drawn_s = 0;  // its last pixel was in the memory
-  double shown_s = 0;  // its first row was read for the display
+  double pose_s = 0;         // its pose was there
+  double begun_s = 0;        // the machine read the pose
+  double drawn_s = 0;        // its last pixel was in the memory
+  double shown_s = 0;        // its first row was read for the display
+  double buffer_wait_s = 0;  // so long its pixels waited for a buffer that the display showed
 };
 struct FrameResult;
 struct StreamResult {

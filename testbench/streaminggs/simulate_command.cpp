@@ -128,13 +128,15 @@ void check_cameras_of_path(const SimulateArguments& arguments, SecondHalfEncodin
       arguments.cameras_path, arguments.path));
 }
 
+constexpr double kLeastRate = 1e-3, kMostRate = 1e6;
+
 // Refuses a rate that stands for no display.
 void check_rates(const SimulateArguments& arguments) {
-  constexpr double kLeastRate = 1e-3;
   for (const double rate : arguments.run.frame_rates) {
-    if (rate >= kLeastRate || (rate == 0 && arguments.stream)) continue;
-    throw InputError(fmt::format("--frame-rate: got {}, expected {} or more, or 0 with --stream",
-                                 rate, kLeastRate));
+    if (rate > 0 || arguments.stream) continue;
+    throw InputError(
+        fmt::format("--frame-rate: got 0, expected a number from {} to {}, or 0 with --stream",
+                    kLeastRate, kMostRate));
   }
 }
 
@@ -309,9 +311,10 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
             "drawn");
   line.whole("--frames", arguments->frames, 1U, 100000U,
              "along the path; if not given 60, or those that nerfstudio's states");
-  line.reals("--frame-rate", arguments->run.frame_rates, 0, 1e6,
-             "frames a second at which joules a second are told, as in 60,90, with the memory's "
-             "rest between frames; of a path one, if not given 90, or as nerfstudio's states");
+  line.reals_or_0(
+      "--frame-rate", arguments->run.frame_rates, kLeastRate, kMostRate,
+      "frames a second at which joules a second are told, as in 60,90, with the memory's rest "
+      "between frames; of a path one: if not given as nerfstudio's states or 90, with --stream 0");
   line.flag(
       "--stream", arguments->stream,
       "the path's frames back to back in one simulation, shown at --frame-rate; as fast as it "

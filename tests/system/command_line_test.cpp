@@ -118,6 +118,7 @@ TEST_CASE("command line: options and their values") {
             "| "
             "grep \"$w\"",
             {"frames a second worst "}},
+           {"$SG simulate $B --path builtin:path --frames 1 --out o", {"\n1 frame along "}},
            {"$SG simulate $B --path builtin:path --frames 2 --frame-rate 1e6 --out o",
             {"\n2 of 2 frames take longer than 1/1e+06 s: the next one begins late\n"}},
            {"$SG render $B --out new/folder/a.png && ls new/folder",

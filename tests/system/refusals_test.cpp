@@ -164,8 +164,9 @@ TEST_CASE("refusals: two eyes where there is one, and axes that are not parallel
   };
   for (const Arguments& paths : {Arguments{}, Arguments{"--path", "builtin:path", "--stream"}}) {
     check(joined({"ipd=0.06", "--config", "paper"}, paths),
-          {"--stereo", "one picture a frame", "exact or gscore"});
+          {"--stereo: got it with machine paper, which draws one eye a frame", "exact or gscore"});
   }
+  check({""}, {"--stereo: got '', expected ipd=DISTANCE"});
   check({"ipd=0.06", "--set", "merge.on_overflow=blend_early"}, {"blend_early with eyes 2"});
   for (const char* text :
        {"0.06", "ipd=", "ipd=x", "ipd=0", "ipd=-1", "ipd=2e6", "ipd=nan", "ipd=0.06,vergence=2"}) {

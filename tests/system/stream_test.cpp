@@ -83,6 +83,9 @@ void check_stream(const PathRun& run) {
     CHECK(number(frame["drawn_s"]) <= number(frame["shown_s"]));
     CHECK(before_s < number(frame["drawn_s"]));
     before_s = number(frame["drawn_s"]);
+    CHECK(number(frame["buffer_wait_s"]) >= 0);
+    CHECK(number(frame["buffer_wait_s"]) < number(frame["time_s"]));
+    if (stream["frame_rate"] == 0) CHECK(frame["buffer_wait_s"] == 0);
     missed += frame["held"] == true ? 0 : 1;
   }
   CHECK(stream["missed_frames"] == missed);
@@ -321,7 +324,8 @@ TEST_CASE("stream: its rate is told as held or missed, and late poses gain what 
       CHECK(number(frame["latency_s"]) == Approx(number(frame["shown_s"]) - pose_s + 0.5 / rate));
     }
   }
-  CHECK(held.table.rfind("frame,pose_s,begun_s,drawn_s,shown_s,time_s,held,", 0) == 0);
+  CHECK(held.table.rfind("frame,pose_s,begun_s,drawn_s,shown_s,time_s,buffer_wait_s,held,", 0) ==
+        0);
   CHECK(std::count(held.table.begin(), held.table.end(), '\n') == kFrames + 1);
 }
 
@@ -352,6 +356,9 @@ TEST_CASE("stream: gscore blends ahead, and waits for its buffer as it drains") 
   }
   CHECK(drains > 0);
   CHECK(others == 0);
+  double waits_s = 0;
+  for (const Json& frame : run.stream()["frames"]) waits_s += number(frame["buffer_wait_s"]);
+  CHECK(waits_s > 0);
 }
 
 // A moment late in a stream has more digits than a double.

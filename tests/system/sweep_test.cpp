@@ -129,8 +129,9 @@ TEST_CASE("sweep: results of one eye and of two, near and far, are kept apart") 
     said.push_back({result["point"].value("stereo", ""), result["report"]["config"]["eyes"]});
   }
   CHECK((said == std::vector<Json>{{"", 1}, {"ipd=0.1", 2}, {"ipd=0.2", 2}}));
-  check_refused(scratch, "$SG sweep $B --stereo ipd=1 --config paper --axis hfus=2 --out q.jsonl",
-                {"--stereo ipd=1 paper hfus=2: --stereo: got it with a machine that draws one"});
+  check_refused(
+      scratch, "$SG sweep $B --stereo ipd=1 --config paper --axis hfus=2 --out q.jsonl",
+      {"--stereo ipd=1 paper hfus=2: --stereo: got it with machine paper, which draws one"});
   check_refused(scratch, "$SG sweep $B --axis eyes=2 --out q.jsonl",
                 {"eyes: got 2 without --stereo, expected 1"});
 }

@@ -57,6 +57,36 @@ const char* meaning(WaitFor what) {
   return kMeanings[static_cast<std::size_t>(what)];
 }
 
+// The display of a stream keeps poses and frame buffers back.
+bool is_display(const std::string& place) {
+  const std::string port = ".host";
+  return place.size() > port.size() &&
+         place.compare(place.size() - port.size(), port.size(), port) == 0;
+}
+
+// The longest wait of an activity for a buffer that the display shows; none without a display,
+// where the frame before is yet to be drawn.
+struct DisplayWait {
+  std::string activity;
+  std::string at;
+  std::uint64_t cycles = 0;
+};
+
+DisplayWait longest_display_wait(const FrameResult& frame) {
+  DisplayWait longest;
+  if (frame.stream.pictures == 0) return longest;
+  for (const UnitResult& unit : frame.machine.units) {
+    for (const ActivityResult& activity : unit.activities) {
+      for (const WaitResult& wait : activity.waits) {
+        if (wait.what != WaitFor::kRoom || !is_display(wait.at)) continue;
+        if (wait.cycles <= longest.cycles) continue;
+        longest = {unit.name + "." + activity.name, wait.at, wait.cycles};
+      }
+    }
+  }
+  return longest;
+}
+
 std::string waits_text(const ActivityResult& activity, const WaitResult& wait,
                        const FrameResult& frame) {
   return fmt::format("waits for {} {:.0f} % of the frame", meaning(wait.what),
@@ -105,14 +135,10 @@ Activities::const_iterator busiest_of(const Activities& activities, const FrameR
   });
 }
 
-constexpr const char* kNoKey = "no key of the configuration is known to change that";
+// Share of the frame from which on a wait for the display is told beside the verdict.
+constexpr double kTold = 0.01;
 
-// The display of a stream keeps poses and frame buffers back.
-bool is_display(const std::string& place) {
-  const std::string port = ".host";
-  return place.size() > port.size() &&
-         place.compare(place.size() - port.size(), port.size(), port) == 0;
-}
+constexpr const char* kNoKey = "no key of the configuration is known to change that";
 
 }  // namespace
 
@@ -183,14 +209,25 @@ Binding find_binding(const FrameResult& frame) {
       "take at least {:.0f} % of its time",
       binding.unit, 100 * binding.utilisation, binding.next, 100 * binding.next_utilisation,
       binding.unit, 100 * binding.next_utilisation);
-  const Cause cause = follow_waiting(frame);
+  Cause cause = follow_waiting(frame);
+  const DisplayWait display = longest_display_wait(frame);
+  const double held = share(display.cycles, frame);
+  const std::string held_text =
+      fmt::format("waits for a buffer that the display shows {:.0f} % of the frame", 100 * held);
+  if (display.cycles > 0 && held >= (1 - binding.utilisation) / 2) {
+    cause = {{display.activity}, display.at, held_text, {}};
+  }
   if (binding.utilisation < kMostly && !cause.path.empty()) {
     binding.holds = cause.holds;
     binding.remedy = cause.remedy;
     binding.explanation += "; no resource works more than two thirds of it: " + text_of(cause);
   }
+  if (held >= kTold && binding.holds != display.at) {
+    binding.explanation += fmt::format("; {} {}", display.activity, held_text);
+  }
   if (is_display(binding.holds)) {
-    binding.advice = "there the display holds it back";
+    binding.advice =
+        "there the display holds it back: --frame-rate 0 tells what limits the frames themselves";
   } else if (binding.remedy.known()) {
     binding.advice = text_of(binding.remedy);
   } else if (busiest.remedy.known()) {

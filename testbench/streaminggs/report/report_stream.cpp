@@ -22,6 +22,9 @@ void visit_frame(ReportVisitor& r, std::size_t number, const StreamedPicture& fr
   r("drawn_s", "s", "Time when its last pixel was in DRAM.", t.drawn_s);
   r("shown_s", "s", "Time when the display began to show it.", t.shown_s);
   r("time_s", "s", "From `begun_s` to `drawn_s`.", t.time_s());
+  r("buffer_wait_s", "s",
+    "Of it, the wait of its pixels for a buffer that the display still shows. Without a display 0.",
+    t.buffer_wait_s);
   r("held", "bool",
     "It is shown in the picture behind that of the frame before it. If not, that one is repeated.",
     t.held);
@@ -57,7 +60,7 @@ void visit_stream(ReportVisitor& r, const StreamReport& stream) {
            [&] { r("p99_s", "s", "The same, of 99 of 100 frames at most.", s.frame_time_p99_s); });
   r("rest_s", "s", "Time in which no frame is under way, of all.", s.rest_s);
   r("worst_frame", "", "Number of the frame that takes longest, from 0.", s.worst_frame);
-  r("missed_frames", "", "Frames that are not held.", s.missed);
+  r("missed_frames", "", "Frames that are not held.", s.missed.size());
   r("pictures", "", "Pictures that the display shows, from the first frame to the last.",
     s.pictures);
   r("repeated_pictures", "", "Of these, those for which no new frame was there.", s.repeated);

@@ -14,7 +14,7 @@
 namespace sgs {
 namespace {
 
-constexpr const char* kBuiltinPath = "builtin:path";
+constexpr const char *kBuiltin = "builtin:", *kBuiltinPath = "builtin:path";
 
 }  // namespace
 
@@ -22,6 +22,12 @@ bool is_path_file(const std::string& path) { return path != kBuiltinPath; }
 
 CameraPath read_camera_path(const std::string& path, const std::string& scene) {
   CameraPath read;
+  if (is_path_file(path) && path.rfind(kBuiltin, 0) == 0) {
+    throw InputError(
+        fmt::format("--path: got {}, expected {}, the way that comes with a built-in scene, or a "
+                    "file of cameras",
+                    path, kBuiltinPath));
+  }
   if (is_path_file(path)) {
     ViewCameras cameras = read_view_cameras(path);
     read = {path, std::move(cameras.cameras), cameras.path, std::move(cameras.note)};

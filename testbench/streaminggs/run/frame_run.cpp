@@ -79,13 +79,14 @@ class Stream {
   }
 
   StreamResult result() {
-    for (std::size_t frame = 0; frame < result_.frames.size(); ++frame) {
+    for (std::uint32_t frame = 0; frame < job_.frames(); ++frame) {
       const FrameTimes& times = display_.times()[frame];
       StreamedFrame& of = result_.frames[frame];
       of.pose_s = times.pose.to_seconds();
       of.begun_s = times.begun.to_seconds();
       of.drawn_s = times.drawn.to_seconds();
       of.shown_s = times.shown.to_seconds();
+      of.buffer_wait_s = display_.buffer_wait(frame).to_seconds();
     }
     result_.pictures = display_.counters().pictures;
     result_.repeated = display_.counters().repeated;

@@ -99,8 +99,8 @@ class DrawnFrames {
 
   void print() const {
     const PathSummary s = summary();
-    fmt::print("\n{} frames{} along {}: frames a second worst {} (frame {}), p99 {}, median {}\n",
-               s.frames, slowest_->right ? " of two eyes" : "", job_.name,
+    fmt::print("\n{} frame{}{} along {}: frames a second worst {} (frame {}), p99 {}, median {}\n",
+               s.frames, s.frames == 1 ? "" : "s", slowest_->right ? " of two eyes" : "", job_.name,
                rate_in_words(s.worst_fps), s.worst_frame, rate_in_words(s.p99_fps),
                rate_in_words(s.median_fps));
     // Late frames begin fewer a second than are asked for.

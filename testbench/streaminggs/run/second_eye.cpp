@@ -32,6 +32,7 @@ void add_stereo_to(CommandLine& line, std::string& stereo) {
   line.text("--stereo", stereo,
             "a second eye beside each camera, as ipd=0.064 to its right in world units, with "
             "parallel axes: a frame is two pictures");
+  line.refuses_empty("--stereo", "ipd=DISTANCE of the eyes in world units");
 }
 
 double eyes_apart(const std::string& stereo) {
@@ -54,7 +55,10 @@ double eyes_apart(const std::string& stereo) {
 
 void draw_eyes(RunConfig& config, double apart) {
   check_eyes_given(config, apart > 0);
-  if (apart > 0) config.design->draw_two_eyes();
+  if (apart == 0 || config.design->draw_two_eyes()) return;
+  throw InputError(fmt::format(
+      "--stereo: got it with machine {}, which draws one eye a frame, expected exact or gscore",
+      config.machine()));
 }
 
 }  // namespace sgs

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "algorithm/files/input_error.h"
 #include "algorithm/files/output_file.h"
 #include "algorithm/image/image_io.h"
 #include "algorithm/memory/frame_buffer.h"
@@ -83,23 +85,43 @@ void print_late_poses(const StreamSummary& s) {
     return;
   }
   fmt::print("  frames begin as their poses come: to measure these then gains nothing{}\n",
-             s.missed > 0
+             !s.missed.empty()
                  ? ""
                  : fmt::format("; each frame waits {} ms for its picture, or more: its pose may "
                                "come so much later",
                                in_ms(s.least_wait_s)));
 }
 
+// "1, 6, 10", of many with how many more.
+std::string first_of(const std::vector<std::size_t>& numbers) {
+  constexpr std::size_t kNamed = 6;
+  std::vector<std::string> named;
+  for (const std::size_t number : numbers) {
+    if (named.size() < kNamed) named.push_back(std::to_string(number));
+  }
+  if (numbers.size() == named.size()) return join(named);
+  return fmt::format("{} and {} more", join(named), numbers.size() - named.size());
+}
+
+void print_buffer_waits(const StreamSummary& s) {
+  if (s.waiting == 0) return;
+  fmt::print(
+      "  {} of these frames wait for a buffer that the display still shows, up to {} ms; without "
+      "that: worst {} ms, median {} ms\n",
+      s.waiting, in_ms(s.buffer_wait.worst_s), in_ms(s.own_time.worst_s),
+      in_ms(s.own_time.median_s));
+}
+
 void print_display(const StreamSummary& s) {
   if (s.rate == 0) return;
-  if (s.missed == 0) {
+  if (s.missed.empty()) {
     fmt::print("every frame is shown in its picture, {} a second\n", rounded(s.rate));
   } else {
     fmt::print(
-        "{} of {} frames miss their picture, {} a second: {} of {} pictures repeat the one "
+        "{} of {} frames miss their picture ({}), {} a second: {} of {} pictures repeat the one "
         "before{}\n",
-        s.missed, s.frames.size(), rounded(s.rate), s.repeated, s.pictures,
-        s.frames.front().held ? "" : "; ahead of the first frame nothing is shown");
+        s.missed.size(), s.frames.size(), first_of(s.missed), rounded(s.rate), s.repeated,
+        s.pictures, s.frames.front().held ? "" : "; ahead of the first frame nothing is shown");
     fmt::print(
         "no frame is left out: one that misses keeps its buffer until the next picture, and "
         "delays all later ones\n");
@@ -144,14 +166,15 @@ void print_flow(const StreamFlow& flow, bool memory_known) {
 }
 
 void print_frames(const StreamReport& stream) {
-  fmt::print("{:>5} {:>10} {:>10} {:>10} {:>8} {:>6} {:>8} {:>8}\n", "frame", "begun ms",
-             "drawn ms", "shown ms", "ms", "held", "PSNR dB", "= golden");
+  fmt::print("{:>5} {:>10} {:>10} {:>10} {:>8} {:>8} {:>6} {:>8} {:>8}\n", "frame", "begun ms",
+             "drawn ms", "shown ms", "ms", "waits ms", "held", "PSNR dB", "= golden");
   for (std::size_t i = 0; i < stream.frames.size(); ++i) {
     const StreamedPicture& frame = stream.frames[i];
     const FrameTiming& t = frame.timing;
     fmt::print(
-        "{:>5} {:>10.4f} {:>10.4f} {:>10.4f} {:>8.4f} {:>6} {:>8} {:>8}\n", i, 1e3 * t.begun_s,
-        1e3 * t.drawn_s, 1e3 * t.shown_s, 1e3 * t.time_s(), t.held ? "yes" : "NO",
+        "{:>5} {:>10.4f} {:>10.4f} {:>10.4f} {:>8.4f} {:>8.4f} {:>6} {:>8} {:>8}\n", i,
+        1e3 * t.begun_s, 1e3 * t.drawn_s, 1e3 * t.shown_s, 1e3 * t.time_s(), 1e3 * t.buffer_wait_s,
+        t.held ? "yes" : "NO",
         std::isinf(frame.worst_psnr_db()) ? "equal" : fmt::format("{:.2f}", frame.worst_psnr_db()),
         frame.equals_golden ? "yes" : "NO");
   }
@@ -165,9 +188,10 @@ void print_stream(const StreamReport& stream, const ViewResult& all) {
   fmt::print("from begin to last pixel: worst {} ms (frame {}), p99 {} ms, median {} ms\n",
              in_ms(s.frame_time.worst_s), s.worst_frame, in_ms(s.frame_time_p99_s),
              in_ms(s.frame_time.median_s));
+  print_buffer_waits(s);
   print_display(s);
   print_flow(stream.flow, all.run.memory.energy_not_stated.empty());
-  if (s.rate == 0 || s.missed > 0) fmt::print("all frames: {}\n", all.binding.sentence());
+  if (s.rate == 0 || !s.missed.empty()) fmt::print("all frames: {}\n", all.binding.sentence());
   std::size_t empty = 0, worst = 0;
   for (std::size_t i = 0; i < stream.frames.size(); ++i) {
     empty += stream.frames[i].empty ? 1 : 0;

@@ -52,12 +52,17 @@ StreamSummary summarise(const FrameResult& run, double rate) {
     frame.latency_s = light_s - frame.pose_s;
     frame.latched_late_s = light_s - of.begun_s;
     out.least_wait_s = std::min(out.least_wait_s, of.shown_s - of.drawn_s);
-    out.missed += frame.held ? 0 : 1;
+    frame.buffer_wait_s = of.buffer_wait_s;
+    if (!frame.held) out.missed.push_back(out.frames.size());
+    out.waiting += frame.buffer_wait_s > 0 ? 1 : 0;
     times.push_back(frame.time_s());
     if (frame.time_s() > times[out.worst_frame]) out.worst_frame = times.size() - 1;
     out.frames.push_back(frame);
   }
   out.frame_time = median_and_worst(out.frames, [](const FrameTiming& f) { return f.time_s(); });
+  out.own_time = median_and_worst(out.frames, [](const FrameTiming& f) { return f.own_time_s(); });
+  out.buffer_wait =
+      median_and_worst(out.frames, [](const FrameTiming& f) { return f.buffer_wait_s; });
   out.frame_time_p99_s = at_share(times, 0.99);
   out.latency = median_and_worst(out.frames, [](const FrameTiming& f) { return f.latency_s; });
   out.latched_late =
@@ -89,7 +94,7 @@ void end_in_power_down(StreamFlow& flow, const DramConfig& dram) {
 StreamFlow simulated_flow(const FrameResult& run, const StreamSummary& summary,
                           const Technology& technology) {
   const std::vector<FrameResult>& shown = run.stream.first_and_last_shown;
-  const bool whole = shown.empty() || summary.missed > 0;
+  const bool whole = shown.empty() || !summary.missed.empty();
   StreamFlow flow;
   const FrameResult& end = whole ? run : shown.back();
   flow.states = end.memory.states;

@@ -12,15 +12,17 @@
 
 namespace sgs {
 
-// Seconds since the start, but for latencies.
+// Seconds since the start, but for latencies and waits.
 struct FrameTiming {
   double pose_s = 0;   // its pose was measured: without a display when the frame began
   double begun_s = 0;  // the machine took it
   double drawn_s = 0, shown_s = 0;
+  double buffer_wait_s = 0;  // its pixels waited so long for a buffer that the display showed
   // The frame is shown in the picture behind that of the frame before it; the first in the first
   // picture. Without a display all are.
   bool held = true;
   double time_s() const { return drawn_s - begun_s; }
+  double own_time_s() const { return time_s() - buffer_wait_s; }
   // To the light of the picture's middle row: from pose_s, and from begun_s as if the pose was
   // measured then.
   double latency_s = 0, latched_late_s = 0;
@@ -35,9 +37,10 @@ struct StreamSummary {
   double rate = 0;  // pictures a second as asked for; 0: each frame as soon as it is drawn
   std::vector<FrameTiming> frames;
   std::uint64_t pictures = 0, repeated = 0, rows_late = 0;
-  std::size_t missed = 0;   // frames that are not held
-  double frames_per_s = 0;  // from the first to the last that is shown
-  MedianAndWorst frame_time, latency, latched_late;
+  std::vector<std::size_t> missed;  // numbers of the frames that are not held
+  std::size_t waiting = 0;          // frames that wait for their buffer
+  double frames_per_s = 0;          // from the first to the last that is shown
+  MedianAndWorst frame_time, own_time, buffer_wait, latency, latched_late;
   double least_wait_s = 0;      // of a frame in memory, for its picture
   double rest_s = 0;            // in which no frame is under way
   double frame_time_p99_s = 0;  // at place ceil(0.99 n) when the quickest comes first

@@ -96,6 +96,33 @@ TEST_CASE("binding: where the display holds a stream back there is nothing to ch
              Contains("70 % of the frame, at rendering.host; there the display holds it back"));
 }
 
+TEST_CASE("binding: waits for the display's buffer are named, and decide where they explain most") {
+  struct Row {
+    std::uint64_t waits;  // of 1,000
+    std::uint64_t pictures;
+    const char *holds, *told;
+  };
+  const char* const decides = "the display shows 30 % of the frame, at rendering.host; there the";
+  const char* const beside =
+      "two thirds of it: a waits for input 50 % of the frame, at fifo; "
+      "unit1.activity waits for a buffer that the display shows 20 % of";
+  for (const auto& [waits, pictures, holds, told] :
+       {Row{300, 7, "rendering.host", decides}, Row{200, 7, "fifo", beside},
+        Row{5, 7, "fifo", "at fifo; raise entries"},
+        Row{300, 0, "fifo", "at fifo; raise entries"}}) {
+    INFO(waits << " " << pictures);
+    ActivityResult drain = activity("drain", 100);
+    drain.waits = {{WaitFor::kInput, "rendering.finished", "", {}, 900 - waits},
+                   {WaitFor::kRoom, "rendering.host", "", {}, waits}};
+    FrameResult frame = frame_of({activity("a", 500), drain}, 0.2);
+    frame.stream.pictures = pictures;
+    const Binding binding = find_binding(frame);
+    CHECK(binding.holds == holds);
+    CHECK(binding.remedy.known() == (holds == std::string("fifo")));
+    CHECK_THAT(binding.sentence(), Contains(told));
+  }
+}
+
 // A pipeline of up to three activities: unit.walk -> visits -> filter.test -> splats -> blend.draw.
 struct Stage {
   std::uint64_t busy;
