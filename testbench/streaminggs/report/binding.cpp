@@ -217,13 +217,14 @@ Binding find_binding(const FrameResult& frame) {
   if (display.cycles > 0 && held >= (1 - binding.utilisation) / 2) {
     cause = {{display.activity}, display.at, held_text, {}};
   }
-  if (binding.utilisation < kMostly && !cause.path.empty()) {
+  const bool waits = binding.utilisation < kMostly && !cause.path.empty();
+  if (held >= kTold && !(waits && cause.holds == display.at)) {
+    binding.explanation += fmt::format("; {} {}", display.activity, held_text);
+  }
+  if (waits) {
     binding.holds = cause.holds;
     binding.remedy = cause.remedy;
     binding.explanation += "; no resource works more than two thirds of it: " + text_of(cause);
-  }
-  if (held >= kTold && binding.holds != display.at) {
-    binding.explanation += fmt::format("; {} {}", display.activity, held_text);
   }
   if (is_display(binding.holds)) {
     binding.advice =

@@ -104,8 +104,8 @@ TEST_CASE("binding: waits for the display's buffer are named, and decide where t
   };
   const char* const decides = "the display shows 30 % of the frame, at rendering.host; there the";
   const char* const beside =
-      "two thirds of it: a waits for input 50 % of the frame, at fifo; "
-      "unit1.activity waits for a buffer that the display shows 20 % of";
+      "20 % of its time; unit1.activity waits for a buffer that the display shows 20 % of the "
+      "frame; no resource works more than two thirds of it: unit0.activity waits for input 50 % of";
   for (const auto& [waits, pictures, holds, told] :
        {Row{300, 7, "rendering.host", decides}, Row{200, 7, "fifo", beside},
         Row{5, 7, "fifo", "at fifo; raise entries"},
