@@ -188,8 +188,8 @@ void RankMaintenance::on_command(Command command, std::uint64_t cycle) {
       break;
     case Command::kSelfRefreshExit:
       state_ = State::kUp;
-      // The device has refreshed itself. JESD209-3 asks for a refresh of all banks after leaving and
-      // before entering again, all at once or bank by bank.
+      // The device has refreshed itself. JESD209-3 asks for a refresh of all banks after leaving
+      // and before entering again, all at once or bank by bank.
       if (mode_ != RefreshMode::kOff) {
         refresh_due_ = cycle;
         owed_after_exit_ = mode_ == RefreshMode::kPerBank ? sets_ : 1;

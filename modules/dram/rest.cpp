@@ -36,8 +36,7 @@ class RestingChannel {
       for (const RankMaintenance& rank : maintenance_) {
         // Those that waking asks for are paid before the end.
         const Candidate owed = rank.owed_refresh(device_, clock_);
-        Candidate next =
-            owed.cycle != kNever ? owed : rank.next(device_, wanted_from, clock_);
+        Candidate next = owed.cycle != kNever ? owed : rank.next(device_, wanted_from, clock_);
         next.cycle = std::max(next.cycle, clock_);
         if (next.cycle < first.cycle) first = next;
       }

@@ -64,8 +64,8 @@ class TraceChecker : public CommandSink {
     std::uint64_t refreshes_due_from = 0;
     std::uint64_t refreshes = 0;
     std::uint32_t owed_after_exit = 0;  // refreshes, before self-refresh is entered again
-    std::uint32_t next_bank = 0;       // whose turn it is, where the device counts
-    std::uint64_t had_their_turn = 0;  // banks, a bit each
+    std::uint32_t next_bank = 0;        // whose turn it is, where the device counts
+    std::uint64_t had_their_turn = 0;   // banks, a bit each
   };
   struct Channel {
     std::vector<Rank> ranks;

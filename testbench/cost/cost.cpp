@@ -166,7 +166,8 @@ bool has_display(const FrameResult& frame) {
                      [](const RegionTraffic& of) { return of.requester == "display"; });
 }
 
-// A display wakes the memory for each row. PHY starts anew within a row's time at the low end alone.
+// A display wakes the memory for each row. PHY starts anew within a row's time at the low end
+// alone.
 Band memory_interface_j(const FrameResult& frame, const Technology& technology) {
   const double stands = frame.memory.time_in_s(kSelfRefreshState) / frame.time_s();
   Band watts = interface_w(frame, stands, technology);

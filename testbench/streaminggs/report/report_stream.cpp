@@ -53,7 +53,9 @@ void visit_stream(ReportVisitor& r, const StreamReport& stream) {
   const StreamSummary& s = stream.summary;
   r("frame_rate", "1/s", "Pictures a second: `--frame-rate`. 0: a frame is shown when it is drawn.",
     s.rate);
-  r("frames_per_s", "1/s", "Frames a second from the first to the last that is shown.",
+  r("frames_per_s", "1/s",
+    "Frames a second from the first to the last that is shown; without a rate to the last but one, "
+    "since behind the last none competes.",
     s.frames_per_s);
   visit_times(r, "frame_time", s.frame_time, "`frames[].time_s`");
   r.object("frame_time",

@@ -67,8 +67,10 @@ StreamSummary summarise(const FrameResult& run, double rate) {
   out.latency = median_and_worst(out.frames, [](const FrameTiming& f) { return f.latency_s; });
   out.latched_late =
       median_and_worst(out.frames, [](const FrameTiming& f) { return f.latched_late_s; });
-  const double behind_s = out.frames.back().shown_s - out.frames.front().shown_s;
-  out.frames_per_s = static_cast<double>(out.frames.size() - 1) / behind_s;
+  const std::size_t last = out.frames.size() - 1;
+  const std::size_t until = rate == 0 && last > 1 ? last - 1 : last;
+  const double behind_s = out.frames[until].shown_s - out.frames.front().shown_s;
+  out.frames_per_s = static_cast<double>(until) / behind_s;
   return out;
 }
 

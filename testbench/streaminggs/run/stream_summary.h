@@ -39,7 +39,9 @@ struct StreamSummary {
   std::uint64_t pictures = 0, repeated = 0, rows_late = 0;
   std::vector<std::size_t> missed;  // numbers of the frames that are not held
   std::size_t waiting = 0;          // frames that wait for their buffer
-  double frames_per_s = 0;          // from the first to the last that is shown
+  // From the first to the last that is shown. Without a rate to the last but one: behind the last
+  // no other frame asks for the memory.
+  double frames_per_s = 0;
   MedianAndWorst frame_time, own_time, buffer_wait, latency, latched_late;
   double least_wait_s = 0;      // of a frame in memory, for its picture
   double rest_s = 0;            // in which no frame is under way

@@ -195,7 +195,8 @@ TEST_CASE("power states: an idle rank powers down, refreshes, and wakes for a re
   CHECK(b.sink.text() == "PDX@4000 ACT@4006 RD@4021");
 }
 
-TEST_CASE("power states: a longer idle rank refreshes itself, with one refresh after what woke it") {
+TEST_CASE(
+    "power states: a longer idle rank refreshes itself, with one refresh after what woke it") {
   DramConfig config = quiet_config();
   config.refresh = RefreshMode::kAllBank;
   config.self_refresh_idle_cycles = 500;

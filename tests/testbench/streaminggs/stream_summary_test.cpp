@@ -55,6 +55,17 @@ TEST_CASE(
   CHECK(s.least_wait_s == Approx(0.0005));
 }
 
+TEST_CASE("stream: as fast as it goes, the last frame is not counted, which none competes with") {
+  const StreamResult four =
+      stream_of(
+          {{0, 0, 0.006, 0.006}, {0, 0, 0.016, 0.016}, {0, 0, 0.026, 0.026}, {0, 0, 0.03, 0.03}})
+          .stream;
+  FrameResult run = stream_of({{0, 0, 0.006, 0.006}, {0, 0, 0.016, 0.016}});
+  CHECK(summarise(run, 0).frames_per_s == Approx(100));
+  run.stream = four;
+  CHECK(summarise(run, 0).frames_per_s == Approx(100));
+}
+
 TEST_CASE("stream: without a rate every frame is held, and its latency is its own") {
   const StreamSummary s = summarise(stream_of({{0, 0, 0.006, 0.006}, {0, 0.004, 0.011, 0.011}}), 0);
   CHECK(s.missed.empty());
