@@ -121,6 +121,11 @@ TEST_CASE("command line: options and their values") {
            {"$SG simulate $B --path builtin:path --frames 1 --out o", {"\n1 frame along "}},
            {"$SG simulate $B --path builtin:path --frames 2 --frame-rate 1e6 --out o",
             {"\n2 of 2 frames take longer than 1/1e+06 s: the next one begins late\n"}},
+           {"$SG simulate $B --path builtin:path --frames 8 --stream --frame-rate 1e6 --out o",
+            {"\n8 of 8 frames miss their picture (0, 1, 2, 3, 4, 5 and 2 more), "}},
+           {"$SG simulate $S --size 97x61 --path builtin:path --frames 8 --stream --frame-rate 9e4 "
+            "--out o",
+            {" of these frames wait for a buffer that the display still shows, up to "}},
            {"$SG render $B --out new/folder/a.png && ls new/folder",
             {"written to new/folder/a.png\na.png"}},
            {"$SG render --help", {"if not given, the one of the ordering's name"}},
