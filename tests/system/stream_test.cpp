@@ -154,17 +154,15 @@ TEST_CASE("stream: every frame is that of the path, with and without a display, 
 TEST_CASE("stream: no order of processes changes a number") {
   for (const Arguments& machine : machines()) {
     INFO(machine[1] << " " << machine.back());
-    for (const char* rate : {"0", kTight}) {
-      const Arguments stalled = joined(machine, {"--stalls", "0.2"});
-      const auto said = [&](const char* order) {
-        PathRun run = stream_of(joined(stalled, {"--process-order", order}), rate);
-        run.report["stream"]["all"] = without_host(run.all());
-        return run.report["stream"];
-      };
-      const Json first = said("0");
-      CHECK(said("1") == first);
-      CHECK(said("2") == first);
-    }
+    const Arguments stalled = joined(machine, {"--stalls", "0.2"});
+    const auto said = [&](const char* order) {
+      PathRun run = stream_of(joined(stalled, {"--process-order", order}), kTight);
+      run.report["stream"]["all"] = without_host(run.all());
+      return run.report["stream"];
+    };
+    const Json first = said("0");
+    CHECK(said("1") == first);
+    CHECK(said("2") == first);
   }
 }
 
