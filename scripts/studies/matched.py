@@ -14,7 +14,7 @@ from runs.scenes import find_scenes, view_numbers_there
 from runs.simulations import Run, mean
 from studies.cases import Measured, model_all, modelled, simulated
 from studies.claims import REAL, SYNTHETIC, Kind, Views, dropped_percent
-from studies.reproduction import add_synthetic, synthetic_scenes
+from studies.synthetic import add_synthetic, synthetic_scenes
 from tables import SCENE, Column, Spread, Study
 
 CAPTURES = tuple(f"builtin:capture?n={millions}000000" for millions in (1, 2, 3))

@@ -23,7 +23,6 @@ from runs.simulations import (
     mm2,
     read_config,
 )
-from studies import subjects
 from studies.cases import check_channels, model_all
 from studies.claims import (
     NO_CGF,
@@ -41,15 +40,13 @@ from studies.claims import (
     geometric,
     seconds,
 )
-from studies.quality import target_pictures
-from studies.subjects import Subject
+from studies.synthetic import add_synthetic, synthetic_scenes
 from tables import PRESET, PSNR, SCENE, SIZE, Column, Study
 
 TEXT, IDEAL, OTHER = "paper_text", "paper_ideal", "gscore"
 CFUS, FFUS = ("1", "2", "4", "8"), ("1", "2", "4")  # of the map, each in an HFU
 GROUPS = ("64", "80", "96", "128")
 CAPTURE = "builtin:capture?n=2000000"  # whose statistics the study matched_scenes accepts
-STAND_IN = "builtin:object?n=300000"  # as many Gaussians as the paper's synthetic scenes
 CHANNEL_GB_S = 6.4  # of LPDDR3-1600 x32
 
 # What lies between the two presets, in parts: keys by how they begin, the first that fits.
@@ -282,18 +279,6 @@ def add_reproduction_arguments(to: run_arguments.Parser) -> None:
     )
 
 
-def add_synthetic(to: run_arguments.Parser) -> None:
-    to.add_argument(
-        *("--synthetic", "-s"),
-        action="append",
-        metavar="SCENE",
-        help=f"scene, or data set to train, drawn at {SYNTHETIC.size}, in voxels of 0.4; default: "
-        f"{STAND_IN}",
-    )
-    subjects.add_training_arguments(to)
-    subjects.add_seed(to)
-
-
 def settings_of(group: str, channels: int) -> tuple[str, ...]:
     return (*group_assignments(group), f"dram.channels={channels}")
 
@@ -366,19 +351,6 @@ def measure(arguments: argparse.Namespace, of: Sequence[tuple[Kind, Run]], plan:
         )
         for (kind, _), runs, modelled in zip(of, by_scene, gpu)
     ]
-
-
-def synthetic_scenes(arguments: argparse.Namespace) -> list[Scene]:
-    """Data sets are trained now, and drawn at their test views."""
-    sources = subjects.find_sources(arguments.synthetic or (STAND_IN,))
-    folders = [source for source in sources if not isinstance(source, Scene)]
-    kept = subjects.kept_fittings(arguments, side_by_side=1)
-    trained = iter(subjects.find_subjects(folders, arguments, kept))
-
-    def of_subject(subject: Subject) -> Scene:
-        return Scene(subject.name, subject.scene, target_pictures(arguments, subject).cameras)
-
-    return [s if isinstance(s, Scene) else of_subject(next(trained)) for s in sources]
 
 
 def check_points(arguments: argparse.Namespace) -> None:

@@ -60,7 +60,6 @@ def make_tuning(arguments: argparse.Namespace) -> None:
     tables.write(arguments.out, "tuning_limits", by, LIMIT_COLUMNS, rows)
 
 
-
 # Published memories by how their names begin in the technology table.
 POINTS = {
     "cacti45": "CACTI, 45 nm (fakeram45)",
