@@ -72,7 +72,7 @@ def draw_claims(axes: Axes, rows: list[dict[str, str]]) -> None:
     axes.minorticks_off()
     axes.grid(axis="y", visible=False)
     where = f"groups of {rows[0]['group px']} px, {rows[0]['GB/s']} GB/s"
-    axes.set_title(f"Measured over published, {where}")
+    axes.set_title(f"Over published, {where}")
 
 
 def draw_waterfall(axes: Axes, data: Data, order: str) -> None:
@@ -127,6 +127,7 @@ def variants(results: Results) -> Made:
     gains = {"times as fast": PAPER_SPEED, "times less energy": PAPER_ENERGY}
     data = results.table("reproduction_variants", MAKER, ("scene", "preset", "with", *gains))
     parts = data.different("with")
+    width = 0.8 / len(parts)
     figure, grid = panels(4, width=5.6, height=3.0)
     pairs = itertools.product(PRESETS, gains.items())
     for axes, (preset, (column, said)) in zip(grid, pairs):
@@ -136,13 +137,13 @@ def variants(results: Results) -> Made:
             rows = [data.where(scene=scene, preset=preset, **{"with": part}) for scene in scenes]
             values = [number(row[column]) if row else 0 for (row,) in rows]
             values.append(said.get(part, 0))
-            places = [x + (at - 1.5) * 0.2 for x in range(len(groups))]
-            axes.bar(places, values, 0.2, label=part, **bar_style(at))
+            places = [x + (at - (len(parts) - 1) / 2) * width for x in range(len(groups))]
+            axes.bar(places, values, width, label=part, **bar_style(at))
         axes.axvline(len(scenes) - 0.5, color="#626a78", linewidth=0.8)
         axes.set_xticks(range(len(groups)), groups, rotation=35, ha="right", fontsize=7)
         axes.grid(axis="x", visible=False)
         axes.set_title(f"{column.capitalize()}, {preset}")
-    legend_above(figure, grid[0])
+    legend_above(figure, grid[0], len(parts))
     caption = (
         "Over the machine with neither. StreamingGS states nothing of the coarse filter alone. "
         f"From {data.made}"
