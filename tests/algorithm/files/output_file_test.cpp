@@ -240,9 +240,8 @@ TEST_CASE("output plan: an output is no input and no other output, whatever it i
   for (const auto& [first, second] :
        {std::pair("a", "a/b"), {"a/b/c", "a"}, {"./a", "new/../a/b"}}) {
     INFO(first << " " << second);
-    CHECK_THAT(test::input_error_of([&] {
-                 plan_of({first, second}).check();
-               }),
+    const std::vector<std::string> paths{first, second};
+    CHECK_THAT(test::input_error_of([&] { plan_of(paths).check(); }),
                Contains("lies below " + scratch.path("")) && Contains("expected a folder"));
   }
   test::input_error_of([&] { plan_of({"a", "."}).check(); });

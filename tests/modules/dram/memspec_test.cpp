@@ -387,7 +387,8 @@ TEST_CASE("memspecs: DRAMSys's other forms, and what has none") {
            {"\"RPpb\": 29", "\"RP\": 290", "memtimingspec.RPab: got 34, expected at least rp_bank"},
            {"\"idd02\": 45.0e-3", "\"idd02\": 45", "mempowerspec.idd02: got 45000"}}) {
     INFO(says);
-    const std::string said = refusal([&] { load_memspec(with({{from, to}})); });
+    const std::string file = with({{from, to}});
+    const std::string said = refusal([&] { load_memspec(file); });
     CHECK(said.find(std::string("a.json: memspec.") + says) != std::string::npos);
   }
 }
