@@ -44,7 +44,7 @@ std::string refusal_of(const char* key, const Json& value) {
 
 TEST_CASE("cameras: the columns of the stored rotation are the camera's axes") {
   const test::ScratchFolder scratch;
-  const auto cameras = read_cameras(scratch.write("a.json", Json({one_camera()}).dump()));
+  const auto cameras = read_cameras(scratch.write("a.json", Json::array({one_camera()}).dump()));
   REQUIRE(cameras.size() == 1);
   const Camera& camera = cameras[0];
   CHECK(camera.id == 7);
@@ -63,17 +63,17 @@ TEST_CASE("cameras: a principal point beside the middle is read, written and sca
   const test::ScratchFolder scratch;
   Json beside = one_camera();
   beside["cx"] = 300.25;
-  const Camera camera = read_cameras(scratch.write("a.json", Json({beside}).dump()))[0];
+  const Camera camera = read_cameras(scratch.write("a.json", Json::array({beside}).dump()))[0];
   CHECK(camera.principal_offset == glm::dvec2(-19.75, 0));
   write_cameras(scratch.path("b.json"), {camera});
   CHECK(read_cameras(scratch.path("b.json"))[0].principal_offset == camera.principal_offset);
   CHECK(scaled_to(camera, 320, 90).principal_offset == glm::dvec2(-9.875, 0));
   beside["cy"] = 45;
-  const Camera both = read_cameras(scratch.write("a.json", Json({beside}).dump()))[0];
+  const Camera both = read_cameras(scratch.write("a.json", Json::array({beside}).dump()))[0];
   CHECK(scaled_to(both, 320, 90).principal_offset == glm::dvec2(-9.875, -33.75));
   // In the middle nothing is written: the file is the original's.
   write_cameras(scratch.path("c.json"),
-                read_cameras(scratch.write("a.json", Json({one_camera()}).dump())));
+                read_cameras(scratch.write("a.json", Json::array({one_camera()}).dump())));
   CHECK(test::bytes_of(scratch.path("c.json")).find("cx") == std::string::npos);
   CHECK_THAT(refusal_of("cx", 640.5),
              Contains("principal point: got x at 640.5 px of 640, expected it in the picture"));
@@ -106,7 +106,7 @@ TEST_CASE("cameras: lenses and unknown keys are judged as in other forms, by tab
     const test::ScratchFolder scratch;
     Json camera = one_camera();
     camera[row.key] = row.value;
-    const std::string path = scratch.write("cams.json", Json({camera}).dump());
+    const std::string path = scratch.write("cams.json", Json::array({camera}).dump());
     const std::string says = row.says;
     if (says.find(" got ") == std::string::npos && says.find("got the") == std::string::npos) {
       CHECK(read_view_cameras(path).note == says + "not read: extra");
@@ -122,12 +122,12 @@ TEST_CASE("cameras: no cameras, and sizes written as floats") {
   CHECK(read_cameras(scratch.write("a.json", "[]")).empty());
   Json camera = one_camera();
   camera["width"] = 640.0;
-  CHECK(read_cameras(scratch.write("b.json", Json({camera}).dump()))[0].width == 640);
+  CHECK(read_cameras(scratch.write("b.json", Json::array({camera}).dump()))[0].width == 640);
 }
 
 TEST_CASE("cameras: written and read back bit for bit") {
   const test::ScratchFolder scratch;
-  Camera camera = read_cameras(scratch.write("a.json", Json({one_camera()}).dump()))[0];
+  Camera camera = read_cameras(scratch.write("a.json", Json::array({one_camera()}).dump()))[0];
   camera.position = {0.1, 1.0 / 3.0, -1e-17};
   camera.focal_x = 457.00736215747671;
   // A rotation about z with entries that have no short decimal form.
@@ -192,7 +192,7 @@ TEST_CASE("cameras: rotations must be orthonormal within 1e-3 and not mirror") {
   CHECK_THAT(refusal_of("rotation", scaled(-1)), Contains("mirrored"));
   Json near = one_camera();
   near["rotation"] = scaled(1.0004);  // its square is off by 0.0008
-  CHECK(read_cameras(scratch.write("a.json", Json({near}).dump())).size() == 1);
+  CHECK(read_cameras(scratch.write("a.json", Json::array({near}).dump())).size() == 1);
 }
 
 TEST_CASE("cameras: files that are no array of cameras") {
@@ -201,7 +201,7 @@ TEST_CASE("cameras: files that are no array of cameras") {
   CHECK_THAT(refusal(Json::object()),
              Contains("got an object without cameras, frames and camera_path, expected an array"));
   CHECK_THAT(refusal({1, 2}), Contains("camera 0: got 1, expected an object"));
-  const std::string whole = Json({one_camera()}).dump();
+  const std::string whole = Json::array({one_camera()}).dump();
   for (std::size_t size = 0; size < whole.size(); ++size) {
     const std::string path = scratch.write("cut.json", whole.substr(0, size));
     CHECK_THAT(test::input_error_of([&] { read_cameras(path); }), Contains("not JSON"));
