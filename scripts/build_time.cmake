@@ -4,7 +4,7 @@
 # Commands read arguments, write reports and compare: the work is done in algorithm/, in units and in
 # the memory. Units that do not blend gain nothing by -O3 over -O2. Tests hand work over and look at
 # results, but for those that compute by themselves what they compare with. What is light is not
-# optimised: tests, and commands under sanitizers.
+# optimised: tests, and most under sanitizers.
 set(commands)
 set(units)
 if(SYSTEMC_FOUND)
@@ -32,8 +32,10 @@ if(BUILD_TESTING)
 endif()
 set(unoptimised ${tests})
 if(CMAKE_BUILD_TYPE STREQUAL Sanitize)
-  list(APPEND unoptimised ${commands})
-  list(REMOVE_ITEM unoptimised sgs_builtin)  # it computes scenes
+  # It takes longer to compile than to run, but for what computes pixels, files and commands.
+  sgs_targets_below(unoptimised "STATIC|OBJECT|EXECUTABLE" .)
+  list(REMOVE_ITEM unoptimised dram_test sgs_builtin sgs_datapath sgs_dram sgs_render sgs_rendering
+    sgs_scene_files sgs_splat sgs_voxel)
 endif()
 foreach(target ${commands} ${computing})
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)

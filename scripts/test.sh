@@ -12,12 +12,13 @@ release() {
   ctest --preset release
 }
 asan() {
+  install_missing clang libclang-rt-14-dev lld
   scripts/setup.sh asan sanitized_tests
   ctest --preset asan
 }
 nightly() {
   # For the page that report.py makes, shared studies of explore.py, and faults of write_faults.py.
-  install_missing chromium postgresql strace
+  install_missing chromium postgresql strace clang libclang-rt-14-dev lld
   scripts/setup.sh release
   ctest --preset release_nightly
   scripts/setup.sh asan
