@@ -97,7 +97,8 @@ def less_than_other(value: Callable[[dict], float]) -> Callable[[Found], float]:
 
 
 def joules_as_stated(view: dict) -> float:
-    """As the paper accounts: clock and leakage are of the area that it states."""
+    """With clock and leakage in the share of the area that the paper states: our reading of its
+    accounting. The other machine's are charged whole."""
     energy = view["energy"]
     of_area = energy["clock_j"] + energy["logic_leakage_j"] + energy["sram_leakage_j"]
     return joules(view) - of_area * (1 - view["config"]["stated_area_mm2"] / mm2(view))
