@@ -196,8 +196,10 @@ PAPER = Order(
     ALIKE,
     (
         groups(*SHAPES),
+        axis("vsu.groups_ahead", 1, 2, 4),
         Axis("voxels of a ray", (("vsu.sample_step_voxels=0.5",), ("vsu.sample_step_voxels=0",))),
         axis("vsu.samples_per_cycle", 1, 2, 4, 8),
+        axis("vsu.ray_lanes", 8, 16, 32, 48, 64),
         axis("vsu.renaming_bytes", 16384, 65536, 262144),
         axis("vsu.adjacency_lines", 64, 256, 1024),
         axis("hfu.ffus", 1, 2, 4),
@@ -215,6 +217,8 @@ PAPER = Order(
         axis("vsu.table_bytes", 2048, 4096, 8192, 16384, 32768),
         axis("vsu.node_fetches", 3, 7, 15, 31),
         axis("vsu.node_cache_bytes", 1536, 2048, 4096, 8192, 16384, 32768),
+        axis("rendering.input_fifo_entries", 4, 8, 14, 20, 32, 64),
+        axis("rendering.pixel_buffers", 1, 2),
         *COMMON,
     ),
 )

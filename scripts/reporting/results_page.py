@@ -70,7 +70,9 @@ def shown_rows(folder: pathlib.Path, of: Question) -> str:
 def readme(folder: pathlib.Path) -> str:
     text = (
         "# Results\n\n`scripts/results.py --pages` writes this file from the tables beside it, and "
-        "`out/results.html` with every row. Findings hold for their tables' scenes and sizes.\n"
+        "`out/results.html` with every row. Findings hold for their tables' scenes and sizes. Trained "
+        "scenes are from the web, and not those of the literature of the same name. Their licences "
+        "do not let them be shipped: give commands scenes of your own.\n"
     )
     for of in questions(folder):
         made = made_sentence(facts_of(folder, of.table))
@@ -86,7 +88,7 @@ def readme(folder: pathlib.Path) -> str:
     listed = [(f"[{name}]({name}.csv)", command(folder, name)) for name in names(folder)]
     return (
         text
-        + "\n## All tables\n\nUnits, meanings and what limits a table stand in its `.json`.\n\n"
+        + "\n## All tables\n\nUnits and meanings stand in a table's `.json`, limits also in `about.json`.\n\n"
         + f"<!-- rows: all -->\n{markdown(('table', 'made by'), listed)}<!-- end -->\n"
     )
 
@@ -94,7 +96,7 @@ def readme(folder: pathlib.Path) -> str:
 def command(folder: pathlib.Path, name: str) -> str:
     """In short: the program, and of results.py the study."""
     said = facts_of(folder, name)["made"]["command"]
-    short = re.match(r"(scripts/results\.py (--all )?)?\S+", said)
+    short = re.match(r"(scripts/results\.py (--all )?)?[^\s,]+", said)
     return f"`{short[0]}`" if short else "no command"
 
 

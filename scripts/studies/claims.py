@@ -116,7 +116,7 @@ def dropped_percent(view: dict) -> float:
 class Claim:
     """low, high: of what is measured, where the claim holds. published: as number or text. kind: of
     the scenes that it is of; None: of all that the paper has the like of. baseline: of what the
-    paper compares with, not of its machine."""
+    paper compares with, not of its machine. again: the claim before it by another accounting."""
 
     name: str
     published: float | str
@@ -125,6 +125,7 @@ class Claim:
     measured: Callable[[Found], float]
     kind: Kind | None = None
     baseline: bool = False
+    again: bool = False
 
     def among(self, found: Found) -> Found:
         kinds = (REAL, SYNTHETIC) if self.kind is None else (self.kind,)
@@ -174,9 +175,12 @@ CLAIMS = (
         over_scenes(lambda s: gpu_seconds(s) / seconds(s.of[""])),
     ),
     within("times less energy than GSCore", 2.3, 0.25, less_than_other(joules)),
-    within(
-        *("times less energy than GSCore, clock and leakage of the stated area", 2.3, 0.25),
-        over_scenes(lambda s: mean(s.other, joules) / mean(s.of[""], joules_as_stated)),
+    dataclasses.replace(
+        within(
+            *("times less energy than GSCore, clock and leakage of the stated area", 2.3, 0.25),
+            over_scenes(lambda s: mean(s.other, joules) / mean(s.of[""], joules_as_stated)),
+        ),
+        again=True,
     ),
     within(
         *("times less energy than the GPU", 62.9, 0.25),
@@ -195,8 +199,8 @@ CLAIMS = (
         mean_over_scenes(lambda s: mean(s.of[""], dropped_percent)),
     ),
     within("area, mm2", 5.37, 0.1, lambda found: max(mm2(v) for s in found for v in s.of[""])),
-    Claim("gain of twice the CFUs", "more than 1", 1.05, math.inf, gain("", TWICE_CFUS)),
-    Claim("gain of twice the FFUs", "1", 0.95, 1.05, gain("", TWICE_FFUS)),
+    Claim("gain of 8 CFUs over 4", "more than 1", 1.05, math.inf, gain("", TWICE_CFUS)),
+    Claim("gain of 2 FFUs over 1", "1", 0.95, 1.05, gain("", TWICE_FFUS)),
 )
 
 

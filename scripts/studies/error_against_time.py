@@ -55,8 +55,10 @@ EXACT, PAPER, TILES = "exact", "paper", "tiles"
 PRESETS = {EXACT: "exact", PAPER: "paper_no_vq", TILES: "gscore_fp32_keys"}
 FLOATS = "framebuffer=rgb32f"  # so that errors below those of 8 bits are seen
 VQ = ("storage.encoding=vq", "sram.codebook_bytes=256000")
-GROUPS = ("32", "48", "64", "96", "128", "160x120")
-GROUP_OF_PRESET = {EXACT: "96", PAPER: "64"}
+GROUPS = {
+    EXACT: ("32", "48", "64", "96", "160x120"),
+    PAPER: ("32", "48", "96", "128", "160x120"),
+}
 VOXELS = (0.25, 0.5, 2, 4)  # times the preset's side
 AS_PRESET = "as the preset"
 
@@ -88,9 +90,8 @@ def moved(order: str, knob: str, key: str, *values: object) -> Iterator[Point]:
 
 
 def grouped(order: str) -> Iterator[Point]:
-    for shape in GROUPS:
-        if shape != GROUP_OF_PRESET[order]:
-            yield Point(order, "group px", shape, group_assignments(shape))
+    for shape in GROUPS[order]:
+        yield Point(order, "group px", shape, group_assignments(shape))
 
 
 def merged() -> Iterator[Point]:
@@ -112,7 +113,7 @@ def chunked() -> Iterator[Point]:
 
 
 def exact_points() -> Iterator[Point]:
-    yield Point(EXACT, AS_PRESET, "", ())
+    yield Point(EXACT, AS_PRESET, PRESETS[EXACT], ())
     yield from grouped(EXACT)
     yield from chunked()
     yield from merged()
@@ -134,7 +135,7 @@ def exact_points() -> Iterator[Point]:
 
 def paper_points(voxel: float) -> Iterator[Point]:
     """voxel: side that the preset takes for the scene, world units."""
-    yield Point(PAPER, AS_PRESET, "", ())
+    yield Point(PAPER, AS_PRESET, PRESETS[PAPER], ())
     yield from grouped(PAPER)
     for factor in VOXELS:
         side = f"storage.voxel_size={factor * voxel:g}"
@@ -154,7 +155,7 @@ def paper_points(voxel: float) -> Iterator[Point]:
 
 
 def tile_points() -> Iterator[Point]:
-    yield Point(TILES, AS_PRESET, "", ())
+    yield Point(TILES, AS_PRESET, PRESETS[TILES], ())
     yield Point(TILES, "precision", "fixed16", (blended("fixed16"),))
     yield Point(TILES, "precision", "fp32", (), "gscore_lossless")
     yield Point(TILES, "combined", "gscore", (), "gscore")

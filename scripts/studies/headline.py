@@ -60,7 +60,7 @@ PAIRS: Sequence[Pair] = (
 # From SEARCHED: what was found for each, in one area.
 SEARCHED_PAIRS: Mapping[Pair, str] = {
     ("exact", "gscore"): "exact order / GSCore, both searched",
-    ("exact", "paper"): "exact order / paper order, both searched",
+    ("exact", "paper"): "exact order / paper order in half precision, both searched",
 }
 TECHNOLOGY = REPOSITORY / "testbench" / "cost" / "technology_32nm.json"
 AREA_RUN = ("builtin:object?n=2000", "96x96")  # areas of presets hardly depend on the scene
@@ -202,13 +202,19 @@ def area_ratios(program: pathlib.Path, pair: Pair, channels: int) -> tuple[list[
     return ratios, provenances
 
 
-def about(scenes: Sequence[str]) -> str:
+def searches(rows: Sequence[Cells]) -> str:
+    """How many machines each judged, and how it ended."""
+    found = {row["machine"].partition(",")[0]: row for row in rows if row["judged"]}
+    return "; ".join(f"{name} {row['judged']}, ended {row['ended']}" for name, row in found.items())
+
+
+def about(scenes: Sequence[str], searched: Sequence[Cells]) -> str:
     return (
         "Geometric means over trained scenes; below 1 the baseline is ahead. Alone: a frame begins "
         "when the one before it has ended. Overlapped: when the busiest part is free, a bound that no "
         f"machine here reaches. Beside presets: {', '.join(scenes)}, two sizes each. Both searched: "
-        f"each with the fastest machine that as long a search found in the area of {BASELINE}, on "
-        "untuned scenes. Splats at one depth blend in the order in which a machine stores them."
+        f"each with the fastest machine that a search found in the area of {BASELINE}, on untuned "
+        f"scenes; machines judged: {searches(searched)}. Splats at one depth blend in the order in which a machine stores them."
     )
 
 
@@ -246,7 +252,7 @@ def make(arguments: argparse.Namespace) -> None:
         for scene, of in of_scenes.items()
     ]
     by = made_from(arguments, provenances)
-    text = about(list(ratios[PAIRS[0], ALONE]))
+    text = about(list(ratios[PAIRS[0], ALONE]), read[SEARCHED])
     tables.write(arguments.out, "headline", by, COLUMNS, rows, text)
     tables.write(arguments.out, "headline_scenes", by, SCENE_COLUMNS, scenes, text)
 

@@ -442,7 +442,7 @@ class Reproduction(unittest.TestCase):
         self.assertAlmostEqual(measured["frames/s, synthetic"], 500)
         self.assertAlmostEqual(measured["gain of the coarse filter"], 2)
         self.assertAlmostEqual(measured["gain of codebooks without it"], 1.5)
-        self.assertAlmostEqual(measured["gain of twice the CFUs"], 2)
+        self.assertAlmostEqual(measured["gain of 8 CFUs over 4"], 2)
         self.assertAlmostEqual(measured["dropped by both filters, %"], 75)
         point = reproduction.Point("paper_text", "96", 4)
         rows = reproduction.claim_rows(point, found)

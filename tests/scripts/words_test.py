@@ -30,7 +30,7 @@ BUDGETS = {
     "modules/README.md": 1200,
     "modules/datapath/README.md": 600,
     "modules/datapath/rtl/README.md": 800,
-    "modules/display/README.md": 320,
+    "modules/display/README.md": 360,
     "modules/dram/README.md": 1200,
     "modules/gscore/README.md": 1500,
     "modules/streaminggs/PAPER.md": 2400,
