@@ -214,7 +214,8 @@ def about(scenes: Sequence[str], searched: Sequence[Cells]) -> str:
         "when the one before it has ended. Overlapped: when the busiest part is free, a bound that no "
         f"machine here reaches. Beside presets: {', '.join(scenes)}, two sizes each. Both searched: "
         f"each with the fastest machine that a search found in the area of {BASELINE}, on untuned "
-        f"scenes; machines judged: {searches(searched)}. Splats at one depth blend in the order in which a machine stores them."
+        f"scenes; machines judged: {searches(searched)}. Splats at one depth blend in the order in "
+        "which a machine stores them."
     )
 
 
